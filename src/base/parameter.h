@@ -10,9 +10,10 @@
 namespace kagefude {
 
 /// What a parameter can hold. A choice is held as the index of its name.
-using Value = std::variant<bool, int, double, std::string, std::vector<double>>;
+using Value =
+    std::variant<bool, int, double, std::string, std::vector<double>, std::vector<std::string>>;
 
-enum class ValueType { boolean, integer, number, choice, text, numbers };
+enum class ValueType { boolean, integer, number, choice, text, numbers, texts };
 
 /// One row of a pass's parameter table: the only place where a parameter is described. TOML keys,
 /// `--set pass.key=value`, `kagefude passes`, range errors and the fuzz dictionary come from it.
@@ -61,6 +62,8 @@ constexpr ValueType valueTypeOf() {
     return ValueType::number;
   } else if constexpr (std::is_same_v<Field, std::string>) {
     return ValueType::text;
+  } else if constexpr (std::is_same_v<Field, std::vector<std::string>>) {
+    return ValueType::texts;
   } else {
     return ValueType::numbers;
   }
@@ -122,7 +125,7 @@ constexpr Parameter number(std::string_view name, double minimum, double maximum
           &A::defaultValue};
 }
 
-/// A row for a bool or std::string member.
+/// A row for a bool, std::string or std::vector<std::string> member.
 template <auto Member>
 constexpr Parameter plain(std::string_view name, std::string_view help) {
   using A = detail::Access<Member>;

@@ -1,0 +1,155 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/parameter.h"
+
+// The look's sections that are not a pass's own parameters. Each is declared once, here.
+namespace kagefude {
+
+enum class ShadowMethod { automatic, none, pair, line, disc, pcf };
+inline constexpr std::string_view shadowMethodNames[] = {"auto", "none", "pair",
+                                                         "line", "disc", "pcf"};
+
+/// [shadow]: how each light's visibility is found.
+struct ShadowParams {
+  ShadowMethod method = ShadowMethod::automatic;
+  std::vector<std::string> lights = {"*"};
+  float strength = 1.0f;
+};
+inline constexpr Parameter shadowParameters[] = {
+    choice<&ShadowParams::method>(
+        "method", shadowMethodNames,
+        "where the visibility comes from; auto takes the masks' own arrangement, then the depth "
+        "map, then none"),
+    plain<&ShadowParams::lights>("lights", "names or globs of the lights that take part"),
+    number<&ShadowParams::strength>("strength", 0, 1, "",
+                                    "share of the light that a full shadow takes away"),
+};
+inline constexpr ParameterTable shadowTable{"shadow", "chooses lights and the shadow method",
+                                            "004, light sum: k", shadowParameters};
+
+/// [colour]: spaces of the strips, of the result and of the previews.
+struct ColourParams {
+  std::string config;
+  std::string working;
+  std::string strip;
+  std::string display;
+  std::string view;
+};
+inline constexpr Parameter colourParameters[] = {
+    plain<&ColourParams::config>(
+        "config", "OCIO config, relative to the look; empty: $OCIO, then the built-in one"),
+    plain<&ColourParams::working>("working",
+                                  "space of frames and results; empty: the config's scene_linear"),
+    plain<&ColourParams::strip>("strip", "space that strips are painted in; empty: sRGB"),
+    plain<&ColourParams::display>("display", "display of previews; empty: the config's default"),
+    plain<&ColourParams::view>("view", "view of previews; empty: the display's default"),
+};
+inline constexpr ParameterTable colourTable{"colour", "names the colour spaces", "OpenColorIO",
+                                            colourParameters};
+
+enum class Background { beauty, transparent };
+inline constexpr std::string_view backgroundNames[] = {"beauty", "transparent"};
+enum class PixelKind { half, full };
+inline constexpr std::string_view pixelKindNames[] = {"half", "float"};
+enum class Compression { zip, zips, piz, none };
+inline constexpr std::string_view compressionNames[] = {"zip", "zips", "piz", "none"};
+
+/// [output]: what is written.
+struct OutputParams {
+  std::vector<std::string> layers;
+  bool passthrough = false;
+  Background background = Background::beauty;
+  PixelKind colour = PixelKind::half;
+  Compression compression = Compression::zip;
+};
+inline constexpr Parameter outputParameters[] = {
+    plain<&OutputParams::layers>(
+        "layers",
+        "layers beside R,G,B,A, names or globs: visibility.<light>, brush.tone, "
+        "brush.angle, brush.repeat, surface.id"),
+    plain<&OutputParams::passthrough>("passthrough",
+                                      "also writes every other input channel unchanged"),
+    choice<&OutputParams::background>("background", backgroundNames,
+                                      "what stands where no surface is painted"),
+    choice<&OutputParams::colour>("colour", pixelKindNames,
+                                  "type of R,G,B,A; data layers are always float"),
+    choice<&OutputParams::compression>("compression", compressionNames, "lossless EXR compression"),
+};
+inline constexpr ParameterTable outputTable{"output", "chooses what is written", "kagefude",
+                                            outputParameters};
+
+enum class StripColour { automatic, replace, multiply };
+inline constexpr std::string_view stripColourNames[] = {"auto", "replace", "multiply"};
+
+/// One [[style]]: which surfaces it paints, and with what.
+struct StyleParams {
+  std::vector<std::string> object;
+  std::vector<std::string> material;
+  int index = 0;
+  std::string strip = "builtin:soft";
+  StripColour colour = StripColour::automatic;
+  std::vector<float> reference;
+  std::string light;
+};
+inline constexpr Parameter styleParameters[] = {
+    plain<&StyleParams::object>("object", "names or globs of objects that the style paints"),
+    plain<&StyleParams::material>("material", "names or globs of materials that the style paints"),
+    number<&StyleParams::index>("index", 0, 1 << 24, "",
+                                "object index that the style paints; 0: by name only"),
+    plain<&StyleParams::strip>(
+        "strip", "picture of the strip, relative to the look, or builtin:soft, :fine, :cel"),
+    choice<&StyleParams::colour>(
+        "colour", stripColourNames,
+        "whether the strip replaces the surface's colour or multiplies it; auto multiplies for "
+        "built-in strips"),
+    numbers<&StyleParams::reference>(
+        "reference", 0, -1e12, 1e12, "world units",
+        "reference point x, y, z for all objects of the style; empty: each object's own"),
+    plain<&StyleParams::light>("light",
+                               "light that strokes run round; empty: the first that takes part"),
+};
+inline constexpr ParameterTable styleTable{"style", "paints objects or materials with a strip",
+                                           "002 fig. 5.5", styleParameters};
+
+enum class LightKind { point, spot, sun, area };
+inline constexpr std::string_view lightKindNames[] = {"point", "spot", "sun", "area"};
+
+/// One [[light]]: settings for lights of the sidecar whose name matches, or a light of its own
+/// where no sidecar describes it (then `masks` or `depth_map` name its layers or file).
+struct LightParams {
+  std::string name;
+  LightKind type = LightKind::point;
+  std::vector<float> position;
+  std::vector<float> direction;
+  float radius = 0.0f;
+  std::vector<std::string> masks;
+  std::vector<float> places;
+  std::string depthMap;
+  std::vector<float> lightFromWorld;
+  std::vector<float> clipFromLight;
+};
+inline constexpr Parameter lightParameters[] = {
+    plain<&LightParams::name>("name", "name or glob of the light"),
+    choice<&LightParams::type>("type", lightKindNames, "kind of a light that no sidecar describes"),
+    numbers<&LightParams::position>("position", 3, -1e12, 1e12, "world units", "where it stands"),
+    numbers<&LightParams::direction>("direction", 3, -1e12, 1e12, "",
+                                     "which way its light travels (sun, spot, area)"),
+    number<&LightParams::radius>("radius", 0, 1e12, "world units", "radius of its disc"),
+    plain<&LightParams::masks>("masks", "layers or channels of its hard masks, in order"),
+    numbers<&LightParams::places>(
+        "places", 0, -1, 1, "radii",
+        "place u, v of each mask on the light; empty: pair for 2 masks, centre and ring for more"),
+    plain<&LightParams::depthMap>("depth_map", "file of its depth map; # stands for the frame"),
+    numbers<&LightParams::lightFromWorld>("light_from_world", 16, -1e12, 1e12, "",
+                                          "matrix of the depth map's camera, row by row"),
+    numbers<&LightParams::clipFromLight>("clip_from_light", 16, -1e12, 1e12, "",
+                                         "projection of the depth map's camera, row by row"),
+};
+inline constexpr ParameterTable lightTable{"light", "settings of one light, or a light of its own",
+                                           "kagefude", lightParameters};
+
+}  // namespace kagefude
