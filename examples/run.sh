@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds, renders the example shot with Blender, comps it, and says which
+# pictures to open.   examples/run.sh [--animation]   (the 24 frames as well)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+out=examples/out
+shots=(still_life)
+for argument in "$@"; do
+  case $argument in
+    --animation) shots+=(moving_light) ;;
+    *) echo "usage: examples/run.sh [--animation]" >&2; exit 2 ;;
+  esac
+done
+
+.ci/ensure_packages build test render
+[ -f build/release/build.ninja ] || cmake --preset release >/dev/null
+cmake --build --preset release --target kagefude
+kagefude=build/release/kagefude
+
+# Prints the frame range of a shot.
+frames_of() { [ "$1" = moving_light ] && echo 1-24 || echo 1; }
+
+for shot in "${shots[@]}"; do
+  folder=$out/$shot
+  mkdir -p "$folder"
+  if [ "examples/$shot.py" -nt "$folder/rendered" ] || [ blender_export -nt "$folder/rendered" ]; then
+    echo "Rendering $shot with Blender ..."
+    blender -b --factory-startup --python-exit-code 3 -P "examples/$shot.py" -- \
+      "$folder/$shot.blend" >"$folder/blender.log"
+    blender -b "$folder/$shot.blend" --python-exit-code 3 -P blender_export/export_aovs.py -- \
+      --output "$folder/aovs/$shot.####.exr" --frames "$(frames_of "$shot")" --masks disc:9 \
+      2>&1 | tee -a "$folder/blender.log" | grep --line-buffered '^Progress' || true
+    touch "$folder/rendered"
+  fi
+  "$kagefude" comp "examples/$shot.toml" "$folder/aovs/$shot.####.exr" \
+    -o "$folder/comp/$shot.####.exr" --frames "$(frames_of "$shot")" --preview "$folder/preview"
+  "$kagefude" sheet "examples/$shot.toml" "$folder/aovs/$shot.0001.exr" -o "$folder/sheet.png"
+done
+echo
+echo "Open these pictures:"
+for shot in "${shots[@]}"; do
+  echo "  $out/$shot/preview/$shot.0001.png   the finished frame"
+  echo "  $out/$shot/sheet.png                how it came about, step by step"
+done

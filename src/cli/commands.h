@@ -1,0 +1,38 @@
+#pragma once
+
+#include <iosfwd>
+
+namespace CLI {
+class App;
+}
+
+namespace kagefude {
+
+/// Where commands print: results go to `out`, progress, warnings and errors to `err`.
+struct Console {
+  std::ostream& out;
+  std::ostream& err;
+  bool terminal = false;  ///< whether `err` is a terminal that can redraw a line
+};
+
+/// How a command ended, as farms read it.
+enum ExitCode {
+  allGood = 0,
+  someFailed = 1,
+  wrongUse = 2,
+  interruptedBySigint = 130,
+  interruptedBySigterm = 143,
+};
+
+/// Each adds one subcommand to the program; its callback runs it and stores an ExitCode in `exit`.
+void addCompCommand(CLI::App& app, Console& console, int& exit);
+void addInspectCommand(CLI::App& app, Console& console, int& exit);
+void addSheetCommand(CLI::App& app, Console& console, int& exit);
+void addPassesCommand(CLI::App& app, Console& console, int& exit);
+void addStripCommand(CLI::App& app, Console& console, int& exit);
+
+/// Parses the command line and runs one command. Every error ends here as one line on `err` that
+/// begins with "ERROR:".
+int runProgram(int argc, const char* const* argv, Console& console);
+
+}  // namespace kagefude

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "cli/commands.h"
+#include "look/pass_list.h"
+#include "look/read_section.h"
+
+namespace kagefude {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* typeName(ValueType type) {
+  switch (type) {
+    case ValueType::boolean:
+      return "true/false";
+    case ValueType::integer:
+      return "integer";
+    case ValueType::number:
+      return "number";
+    case ValueType::choice:
+      return "choice";
+    case ValueType::text:
+      return "text";
+    case ValueType::numbers:
+      return "numbers";
+    case ValueType::texts:
+      return "texts";
+  }
+  return "";
+}
+
+bool hasRange(const Parameter& p) { return p.minimum < p.maximum; }
+
+std::string rangeText(const Parameter& p) {
+  if (p.type == ValueType::choice) return fmt::format("{}", fmt::join(p.choices, " | "));
+  if (!hasRange(p)) return "";
+  return fmt::format("{} to {}{}{}", p.minimum, p.maximum, p.unit.empty() ? "" : " ", p.unit);
+}
+
+void printTable(std::ostream& out, const ParameterTable& table) {
+  out << fmt::format("[{}]  {}  ({})\n", table.pass, table.summary, table.source);
+  for (const Parameter& p : table.parameters) {
+    out << fmt::format("  {} = {}    {}", p.name, spellValue(p, p.defaultValue()),
+                       typeName(p.type));
+    const std::string range = rangeText(p);
+    if (!range.empty()) out << ", " << range;
+    out << fmt::format("\n      {}\n", p.help);
+  }
+  out << "\n";
+}
+
+Json defaultOf(const Parameter& p) {
+  const Value value = p.defaultValue();
+  if (p.type == ValueType::choice)
+    return std::string(p.choices[static_cast<size_t>(std::get<int>(value))]);
+  return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+Json toJson(const ParameterTable& table) {
+  Json parameters = Json::array();
+  for (const Parameter& p : table.parameters) {
+    Json row{{"name", p.name}, {"type", typeName(p.type)}, {"default", defaultOf(p)}};
+    if (hasRange(p)) row["range"] = {p.minimum, p.maximum};
+    if (!p.choices.empty()) row["choices"] = std::vector<std::string>(p.choices.begin(), p.choices.end());
+    if (!p.unit.empty()) row["unit"] = p.unit;
+    row["help"] = p.help;
+    parameters.push_back(std::move(row));
+  }
+  return {{"pass", table.pass},
+          {"summary", table.summary},
+          {"source", table.source},
+          {"parameters", std::move(parameters)}};
+}
+
+std::vector<const ParameterTable*> chosenTables(const std::string& name) {
+  std::vector<const ParameterTable*> chosen;
+  std::vector<std::string> names;
+  for (const ParameterTable* table : allTables()) {
+    names.emplace_back(table->pass);
+    if (name.empty() || name == table->pass) chosen.push_back(table);
+  }
+  if (chosen.empty())
+    throw UsageError(fmt::format("there is no pass {}{}; there are {}", name,
+                                 didYouMean(name, names), listNames(names, names.size())));
+  return chosen;
+}
+
+void printPasses(std::ostream& out, const std::string& name, bool json) {
+  Json list = Json::array();
+  for (const ParameterTable* table : chosenTables(name)) {
+    if (json)
+      list.push_back(toJson(*table));
+    else
+      printTable(out, *table);
+  }
+  if (json) out << list.dump(2) << "\n";
+}
+
+}  // namespace
+
+void addPassesCommand(CLI::App& app, Console& console, int&) {
+  struct Options {
+    std::string name;
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "passes", "Print every pass and parameter: type, default, range, unit, meaning");
+  command->add_option("name", options->name, "only this pass or section");
+  command->add_flag("--json", options->json, "as JSON");
+  command->callback([options, &console] { printPasses(console.out, options->name, options->json); });
+}
+
+}  // namespace kagefude
