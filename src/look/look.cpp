@@ -120,6 +120,10 @@ void spellPasses(std::string& text, const std::string& prefix, PassParams params
 
 std::filesystem::path Look::resolve(const std::string& path) const { return folder / path; }
 
+std::string Look::colourConfig() const {
+  return colour.config.empty() ? std::string() : resolve(colour.config).string();
+}
+
 Look readLook(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   toml::table root = parseFile(path);
   for (const std::string& text : overrides) applyOverride(root, text);

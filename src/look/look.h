@@ -37,6 +37,8 @@ struct Look {
 
   /// The file that a path in the look means.
   std::filesystem::path resolve(const std::string& path) const;
+  /// The OCIO config that the look names, resolved; "" when it names none.
+  std::string colourConfig() const;
 };
 
 /// Reads a look file and lays `overrides` ("section.key=value", also "style[0].brush.key=value")

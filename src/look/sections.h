@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/parameter.h"
+#include "frame/write_image.h"
 
 // The look's sections that are not a pass's own parameters. Each is declared once, here.
 namespace kagefude {
@@ -55,8 +56,7 @@ enum class Background { beauty, transparent };
 inline constexpr std::string_view backgroundNames[] = {"beauty", "transparent"};
 enum class PixelKind { half, full };
 inline constexpr std::string_view pixelKindNames[] = {"half", "float"};
-enum class Compression { zip, zips, piz, none };
-inline constexpr std::string_view compressionNames[] = {"zip", "zips", "piz", "none"};
+inline constexpr std::string_view compressionNames[] = {"none", "rle", "zips", "zip", "piz"};
 
 /// [output]: what is written.
 struct OutputParams {

@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <memory>
+#include <ostream>
+
+#include "cli/commands.h"
+#include "sequence/comp_batch.h"
+#include "sequence/frame_range.h"
+#include "sequence/interrupt.h"
+#include "sequence/memory_bound.h"
+#include "sequence/progress.h"
+
+namespace kagefude {
+namespace {
+
+struct CompOptions {
+  std::string look, input, output, frames, preview, chunk, maxMemory;
+  std::vector<std::string> overrides, views;
+  std::string existing = "overwrite", progress = "auto";
+  int threads = 0;
+  bool skipBadFrames = false;
+};
+
+ExistingOutputs existingFrom(const std::string& name) {
+  if (name == "skip") return ExistingOutputs::skip;
+  return name == "update" ? ExistingOutputs::update : ExistingOutputs::overwrite;
+}
+
+/// PNGs go under the EXR's own name, so that one pattern serves both.
+std::string previewPattern(const CompOptions& options) {
+  const std::filesystem::path name = std::filesystem::path(options.output).filename();
+  return (std::filesystem::path(options.preview) / name).replace_extension(".png").string();
+}
+
+CompRequest requestFrom(const CompOptions& options, std::stop_token stop) {
+  CompRequest request;
+  request.plan.inputs = {FramePattern(options.input)};
+  request.plan.outputs = {FramePattern(options.output)};
+  if (!options.preview.empty())
+    request.plan.outputs.push_back(FramePattern(previewPattern(options)));
+  if (!options.frames.empty()) request.plan.frames = parseFrames(options.frames);
+  request.plan.views = options.views;
+  if (!options.chunk.empty()) request.plan.chunk = parseChunk(options.chunk);
+  request.plan.skipBadFrames = options.skipBadFrames;
+  request.existing = existingFrom(options.existing);
+  request.maxMemory =
+      options.maxMemory.empty() ? defaultMemoryBound() : parseMemory(options.maxMemory);
+  request.skipBadFrames = options.skipBadFrames;
+  request.stop = std::move(stop);
+  return request;
+}
+
+std::string summaryOf(const BatchResult& result) {
+  std::string text = fmt::format("{} frames done", result.done);
+  if (result.kept) text += fmt::format(", {} kept", result.kept);
+  if (!result.failures.empty()) text += fmt::format(", {} failed", result.failures.size());
+  if (result.untouched) text += fmt::format(", {} not made", result.untouched);
+  return text;
+}
+
+int finish(const BatchResult& result, const std::vector<FrameJob>& jobs,
+           const Interrupts& interrupts, ProgressSink& progress, Console& console) {
+  const bool failed = !result.failures.empty() || result.stopped;
+  progress.end(summaryOf(result), failed);
+  for (const FrameFailure& failure : result.failures)
+    console.err << "ERROR: " << jobs[failure.index].name() << ": " << failure.message << std::endl;
+  if (result.stopped) return interrupts.exitCode();
+  return failed ? someFailed : allGood;
+}
+
+int comp(const CompOptions& options, Console& console) {
+  Interrupts interrupts([](int code) { std::_Exit(code); });
+  const Look look = readLook(options.look, options.overrides);
+  CompBatch batch(look, requestFrom(options, interrupts.token()));
+  const auto progress =
+      makeProgress(parseProgressKind(options.progress), console.err, console.terminal);
+
+  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                            static_cast<size_t>(threads));
+  tbb::task_arena arena(threads);
+  BatchResult result;
+  arena.execute([&] {
+    progress->begin(batch.jobs().size());
+    result = batch.run([&](const CompEvent& event) {
+      const std::string name = event.job->name();
+      for (const std::string& warning : event.warnings)
+        progress->warning(name + ": " + warning);
+      const FrameEvent& frame = event.frame;
+      progress->frame({name, frame.outcome == FrameOutcome::kept, frame.message,
+                       frame.readSeconds + frame.computeSeconds + frame.writeSeconds});
+    });
+  });
+  return finish(result, batch.jobs(), interrupts, *progress, console);
+}
+
+}  // namespace
+
+void addCompCommand(CLI::App& app, Console& console, int& exit) {
+  auto options = std::make_shared<CompOptions>();
+  CLI::App* command = app.add_subcommand("comp", "Composite frames with a look");
+  command->add_option("look", options->look, "look file (TOML)")->required();
+  command->add_option("input", options->input, "frames (EXR), such as in/shot.####.exr")
+      ->required();
+  command->add_option("-o,--output", options->output, "frames to write (EXR)")->required();
+  command->add_option("--frames", options->frames,
+                      "such as 1-24, 1-24x2, 1,5,9; without it all that are on disk");
+  command->add_option("--views", options->views, "views that %V stands for (left,right)")
+      ->delimiter(',');
+  command->add_option("--set", options->overrides, "section.key=value, over the look's own");
+  command->add_option("--preview", options->preview, "folder for display-ready PNGs");
+  command->add_option("--existing", options->existing,
+                      "outputs that are there: overwrite, skip, or update what is stale "
+                      "(overwrite)")
+      ->check(CLI::IsMember({"overwrite", "skip", "update"}));
+  command->add_flag("--skip-bad-frames", options->skipBadFrames,
+                    "go on after a frame that fails, and exit with 1 at the end");
+  command->add_option("--chunk", options->chunk, "only part i of n of the frames, as i/n");
+  command->add_option("--max-memory", options->maxMemory,
+                      "most memory for frames in flight, such as 8G (three quarters of what is "
+                      "free)");
+  command->add_option("--threads", options->threads, "threads, 0 to 1024; 0 is one a core (0)")
+      ->check(CLI::Range(0, 1024));
+  command->add_option("--progress", options->progress, "auto, plain, openjd or none (auto)");
+  command->callback([options, &console, &exit] { exit = comp(*options, console); });
+}
+
+}  // namespace kagefude

@@ -1,0 +1,94 @@
+#include "compositor/compose_frame.h"
+
+#include <fmt/format.h>
+
+#include "base/glob.h"
+#include "compositor/frame_tone.h"
+#include "compositor/styled_surfaces.h"
+#include "image/parallel.h"
+#include "passes/brush_map.h"
+#include "passes/surfaces.h"
+
+namespace kagefude {
+namespace {
+
+bool asksFor(const Look& look, const char* layer) { return matchesAny(layer, look.output.layers); }
+
+/// Strokes over what lies behind them: associated "over" where strokes are, the beauty (or nothing)
+/// where none are.
+void compositeOver(const Look& look, const FramePlanes& planes, const StyledSurfaces& styled,
+                   BrushResult& brush) {
+  const bool background = look.output.background == Background::beauty && !planes.beauty.empty();
+  const bool albedo = !planes.albedo.empty();
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x) {
+        const uint16_t anchor = styled.anchorIndex(x, y);
+        float* const colour[3] = {&brush.r(x, y), &brush.g(x, y), &brush.b(x, y)};
+        float& alpha = brush.a(x, y);
+        if (anchor != 0 && albedo && styled.multiplies[anchor - 1u]) {
+          *colour[0] *= planes.albedo.x(x, y);
+          *colour[1] *= planes.albedo.y(x, y);
+          *colour[2] *= planes.albedo.z(x, y);
+        }
+        if (!background) continue;
+        const float behind = 1.0f - alpha;
+        *colour[0] += behind * planes.beauty.x(x, y);
+        *colour[1] += behind * planes.beauty.y(x, y);
+        *colour[2] += behind * planes.beauty.z(x, y);
+        alpha += behind * (planes.alpha.empty() ? 1.0f : planes.alpha(x, y));
+      }
+  });
+}
+
+void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageSink& sink) {
+  if (!planes.beauty.empty()) sink.picture("beauty", planes.beauty);
+  if (!planes.albedo.empty()) sink.picture("albedo", planes.albedo);
+  sink.directions("normals", planes.normal);
+  sink.labels("objects", planes.objectId);
+  sink.labels("surfaces", surfaces);
+}
+
+}  // namespace
+
+FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePlan& plan,
+                         FramePlanes planes, StageSink* sink) {
+  FrameResult result;
+  result.warnings = plan.warnings;
+  if (planes.badPixels)
+    result.warnings.push_back(fmt::format(
+        "{} pixels hold NaN or Inf in Position or Normal and are taken as background",
+        planes.badPixels));
+  Labels surfaces =
+      labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces);
+  if (sink) showInputs(planes, surfaces, *sink);
+  Floats tone = frameTone(look, plan, planes, surfaces, result, sink);
+  if (asksFor(look, "surface.id")) result.surfaceId = std::move(surfaces);
+
+  const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
+  adjustTone(tone, styled.anchorIndex, styled.tones);
+  if (sink) sink->number("brush.tone", tone);
+  BrushParams params = look.passes.brush;
+  params.diagnostics =
+      sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");
+  BrushResult brush = applyBrush(planes.position, planes.normal, tone, styled.anchorIndex,
+                                 styled.anchors, strips.strips(), params);
+  if (sink) {
+    sink->number("brush.angle", brush.angle);
+    sink->number("brush.repeat", brush.repeat);
+  }
+  compositeOver(look, planes, styled, brush);
+  result.colour.x = std::move(brush.r);
+  result.colour.y = std::move(brush.g);
+  result.colour.z = std::move(brush.b);
+  result.alpha = std::move(brush.a);
+  if (sink) sink->picture("result", result.colour);
+  if (asksFor(look, "brush.tone")) result.layers.push_back({"brush.tone", std::move(tone)});
+  if (asksFor(look, "brush.angle"))
+    result.layers.push_back({"brush.angle", std::move(brush.angle)});
+  if (asksFor(look, "brush.repeat"))
+    result.layers.push_back({"brush.repeat", std::move(brush.repeat)});
+  return result;
+}
+
+}  // namespace kagefude

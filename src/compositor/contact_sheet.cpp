@@ -1,0 +1,137 @@
+#include "compositor/contact_sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frame/draw_text.h"
+#include "frame/write_image.h"
+#include "image/parallel.h"
+#include "passes/classes.h"
+
+namespace kagefude {
+namespace {
+
+constexpr int captionHeight = 22;
+constexpr int captionSize = 14;
+constexpr int gap = 8;
+constexpr float paper = 0.13f;
+
+/// A bright, distinct colour for a label: hues spread by the golden ratio over hashed labels.
+V3f labelColour(uint32_t label) {
+  if (label == 0) return {0, 0, 0};
+  const uint32_t hash = (label ^ (label >> 15)) * 0x9e3779b1u;
+  const float hue = static_cast<float>(hash >> 8) / 16777216.0f * 6.0f;
+  const float value = 0.6f + 0.4f * static_cast<float>(hash & 255u) / 255.0f;
+  const auto ramp = [&](float shift) {
+    const float h = std::fmod(hue + shift, 6.0f);
+    return value * (0.25f + 0.75f * std::clamp(std::fabs(h - 3.0f) - 1.0f, 0.0f, 1.0f));
+  };
+  return {ramp(0), ramp(4), ramp(2)};
+}
+
+void blit(const Floats& tile, View<float> sheet, int left, int top) {
+  for (int y = 0; y < tile.height(); ++y)
+    std::copy_n(tile.row(y), tile.width(), sheet.row(top + y) + left);
+}
+
+}  // namespace
+
+ContactSheet::ContactSheet(const Colour& colour, const ColourParams& spaces, int tileWidth)
+    : colour_(colour), spaces_(spaces), tileWidth_(tileWidth) {}
+
+void ContactSheet::add(const std::string& title, int width, int height, const Pixel& pixel,
+                       bool average) {
+  const int across = std::min(tileWidth_, width);
+  const int down = std::max(1, static_cast<int>(static_cast<int64_t>(height) * across / width));
+  Tile tile{title, Floats(across, down), Floats(across, down), Floats(across, down)};
+  parallelRows(down, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < across; ++x) {
+        const auto from = [](int i, int tiles, int size) {
+          return static_cast<int>(static_cast<int64_t>(i) * size / tiles);
+        };
+        const int x0 = from(x, across, width), y0 = from(y, down, height);
+        const int x1 = average ? std::max(x0 + 1, from(x + 1, across, width)) : x0 + 1;
+        const int y1 = average ? std::max(y0 + 1, from(y + 1, down, height)) : y0 + 1;
+        V3f sum(0, 0, 0);
+        for (int sy = y0; sy < y1; ++sy)
+          for (int sx = x0; sx < x1; ++sx) sum += pixel(sx, sy);
+        sum /= static_cast<float>((x1 - x0) * (y1 - y0));
+        tile.r(x, y) = sum.x;
+        tile.g(x, y) = sum.y;
+        tile.b(x, y) = sum.z;
+      }
+  });
+  tiles_.push_back(std::move(tile));
+}
+
+void ContactSheet::number(const std::string& title, View<const float> plane) {
+  add(title, plane.width, plane.height,
+      [&](int x, int y) { return V3f(std::clamp(plane(x, y), 0.0f, 1.0f)); }, true);
+}
+
+void ContactSheet::mask(const std::string& title, View<const uint8_t> plane) {
+  add(title, plane.width, plane.height,
+      [&](int x, int y) { return V3f(plane(x, y) ? 1.0f : 0.0f); }, true);
+}
+
+void ContactSheet::labels(const std::string& title, View<const uint32_t> plane) {
+  add(title, plane.width, plane.height, [&](int x, int y) { return labelColour(plane(x, y)); },
+      false);
+}
+
+void ContactSheet::classes(const std::string& title, View<const uint8_t> plane) {
+  add(title, plane.width, plane.height,
+      [&](int x, int y) {
+        switch (static_cast<ShadowClass>(plane(x, y))) {
+          case ShadowClass::umbra:
+            return V3f(0.02f, 0.02f, 0.10f);
+          case ShadowClass::penumbra:
+            return V3f(0.93f, 0.62f, 0.15f);
+          case ShadowClass::lit:
+            return V3f(1, 1, 1);
+          default:
+            return V3f(0.3f, 0.3f, 0.3f);
+        }
+      },
+      false);
+}
+
+void ContactSheet::directions(const std::string& title, Vec3View plane) {
+  add(title, plane.width(), plane.height(),
+      [&](int x, int y) { return plane(x, y) * 0.5f + V3f(0.5f); }, true);
+}
+
+void ContactSheet::picture(const std::string& title, Vec3View plane) {
+  add(title, plane.width(), plane.height(), [&](int x, int y) { return plane(x, y); }, true);
+  Tile& tile = tiles_.back();
+  colour_.toDisplay(tile.r, tile.g, tile.b, spaces_.display, spaces_.view);
+}
+
+void ContactSheet::write(const std::filesystem::path& path) const {
+  const int count = static_cast<int>(tiles_.size());
+  const int columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(count))));
+  const int rows = (count + columns - 1) / columns;
+  int width = 1, height = 1;
+  for (const Tile& tile : tiles_) {
+    width = std::max(width, tile.r.width());
+    height = std::max(height, tile.r.height());
+  }
+  const int cellWidth = width + gap, cellHeight = height + captionHeight + gap;
+  const int sheetWidth = columns * cellWidth + gap, sheetHeight = rows * cellHeight + gap;
+  Floats r(sheetWidth, sheetHeight, paper), g(sheetWidth, sheetHeight, paper),
+      b(sheetWidth, sheetHeight, paper), text(sheetWidth, sheetHeight, 0.0f);
+  for (int i = 0; i < count; ++i) {
+    const int left = gap + i % columns * cellWidth, top = gap + i / columns * cellHeight;
+    drawText(text, left, top + captionSize, captionSize, tiles_[static_cast<size_t>(i)].title);
+    blit(tiles_[static_cast<size_t>(i)].r, r, left, top + captionHeight);
+    blit(tiles_[static_cast<size_t>(i)].g, g, left, top + captionHeight);
+    blit(tiles_[static_cast<size_t>(i)].b, b, left, top + captionHeight);
+  }
+  for (View<float> plane : {r.view(), g.view(), b.view()})
+    for (size_t i = 0; i < plane.pixels(); ++i)
+      plane.data[i] += (0.92f - plane.data[i]) * std::min(text.row(0)[i], 1.0f);
+  writePng(path, r, g, b);
+}
+
+}  // namespace kagefude

@@ -1,0 +1,227 @@
+#include "compositor/frame_light.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "base/glob.h"
+#include "base/nearest_name.h"
+#include "base/frame_pattern.h"
+
+namespace kagefude {
+namespace {
+
+V3f toFloat(const V3d& v) { return V3f(v); }
+
+Light::Type typeOf(LightType type) { return static_cast<Light::Type>(type); }
+
+/// The settings of the last [[light]] that matches, or the look's own.
+const LightLook* settingsOf(const Look& look, const std::string& name) {
+  const LightLook* found = nullptr;
+  for (const LightLook& light : look.lights)
+    if (matchesGlob(name, light.light.name)) found = &light;
+  return found;
+}
+
+void applySettings(const Look& look, const LightLook* settings, FrameLight& light) {
+  const ShadowParams& shadow = settings ? settings->shadow : look.shadow;
+  light.method = shadow.method;
+  light.strength = shadow.strength;
+  light.passes = settings ? settings->passes : look.passes;
+}
+
+/// Irradiance at the subject up to a constant: how much this light shapes the tone.
+float weightOf(const SidecarLight& light) {
+  const double luminance =
+      0.2126 * light.color[0] + 0.7152 * light.color[1] + 0.0722 * light.color[2];
+  if (light.type == LightType::sun) return static_cast<float>(light.energy * luminance);
+  const double distance2 = (light.position - light.subjectCenter).length2();
+  constexpr double wattsToIrradiance = 1.0 / (4.0 * M_PI * M_PI);
+  return static_cast<float>(light.energy * luminance * wattsToIrradiance /
+                            std::max(distance2, 1e-12));
+}
+
+ShadowMethod arrangementMethod(MaskArrangement arrangement) {
+  switch (arrangement) {
+    case MaskArrangement::pair:
+      return ShadowMethod::pair;
+    case MaskArrangement::line:
+      return ShadowMethod::line;
+    case MaskArrangement::disc:
+      return ShadowMethod::disc;
+  }
+  return ShadowMethod::none;
+}
+
+bool needsMasks(ShadowMethod method) {
+  return method == ShadowMethod::pair || method == ShadowMethod::line ||
+         method == ShadowMethod::disc;
+}
+
+FrameLight fromSidecar(const Look& look, const SidecarLight& source) {
+  FrameLight light;
+  light.name = source.name;
+  light.light = {typeOf(source.type),
+                 toFloat(source.position),
+                 toFloat(source.direction),
+                 static_cast<float>(source.radius),
+                 static_cast<float>(source.coneAngle),
+                 static_cast<float>(source.coneBlend)};
+  light.subjectCentre = toFloat(source.subjectCenter);
+  light.subjectRadius = static_cast<float>(source.subjectRadius);
+  light.weight = weightOf(source);
+  applySettings(look, settingsOf(look, source.name), light);
+  if (light.method == ShadowMethod::automatic) {
+    light.method = source.masks      ? arrangementMethod(source.masks->arrangement)
+                   : source.depthMap ? ShadowMethod::pcf
+                                     : ShadowMethod::none;
+  }
+  if (source.depthMap)
+    light.depthMap = {source.depthMap->file, source.depthMap->channel,
+                      source.depthMap->lightFromWorld, source.depthMap->clipFromLight};
+  if (needsMasks(light.method) && source.masks)
+    for (const MaskSample& sample : source.masks->samples) {
+      light.maskChannels.push_back(sample.layer);
+      light.places.emplace_back(static_cast<float>(sample.u), static_cast<float>(sample.v));
+    }
+  return light;
+}
+
+Transform matrixFrom(const std::vector<float>& numbers) {
+  Transform result;
+  for (size_t i = 0; i < numbers.size(); ++i) result.m[i / 4][i % 4] = numbers[i];
+  return result;
+}
+
+V3f vectorFrom(const std::vector<float>& numbers, const V3f& otherwise) {
+  return numbers.empty() ? otherwise : V3f(numbers[0], numbers[1], numbers[2]);
+}
+
+/// Places of masks that the look names without saying where they stand on the light: two are a
+/// pair on the axis; more are a centre and a ring.
+std::vector<V2f> defaultPlaces(size_t count) {
+  if (count == 2) return {{1, 0}, {-1, 0}};
+  std::vector<V2f> places{{0, 0}};
+  for (size_t i = 1; i < count; ++i) {
+    const double angle = 2 * M_PI * static_cast<double>(i - 1) / static_cast<double>(count - 1);
+    places.emplace_back(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
+  }
+  return places;
+}
+
+std::vector<V2f> placesFrom(const LightParams& params) {
+  if (params.places.empty()) return defaultPlaces(params.masks.size());
+  if (params.places.size() != 2 * params.masks.size())
+    throw LookError(fmt::format("light {} has {} masks, so light.places wants {} numbers, not {}",
+                                params.name, params.masks.size(), 2 * params.masks.size(),
+                                params.places.size()));
+  std::vector<V2f> places;
+  for (size_t i = 0; i < params.masks.size(); ++i)
+    places.emplace_back(params.places[2 * i], params.places[2 * i + 1]);
+  return places;
+}
+
+ShadowMethod methodFor(const LightParams& params) {
+  if (params.masks.size() == 2) return ShadowMethod::pair;
+  if (params.masks.size() > 2) return ShadowMethod::disc;
+  return params.depthMap.empty() ? ShadowMethod::none : ShadowMethod::pcf;
+}
+
+FrameLight fromLook(const Look& look, const LightLook& settings, int frame) {
+  const LightParams& params = settings.light;
+  FrameLight light;
+  light.name = params.name;
+  light.light.type = static_cast<Light::Type>(params.type);
+  light.light.position = vectorFrom(params.position, {0, 0, 0});
+  light.light.direction = vectorFrom(params.direction, {0, 0, -1}).normalized();
+  light.light.radius = params.radius;
+  applySettings(look, &settings, light);
+  if (light.method == ShadowMethod::automatic) light.method = methodFor(params);
+  if (needsMasks(light.method)) {
+    light.maskChannels = params.masks;
+    light.places = placesFrom(params);
+  }
+  if (!params.depthMap.empty()) {
+    if (params.lightFromWorld.empty() || params.clipFromLight.empty())
+      throw LookError(fmt::format(
+          "light {} has a depth_map, so it wants light_from_world and clip_from_light too",
+          params.name));
+    light.depthMap = {look.resolve(FramePattern(params.depthMap).path(frame).string()), "",
+                      matrixFrom(params.lightFromWorld), matrixFrom(params.clipFromLight)};
+  }
+  return light;
+}
+
+bool isGlob(const std::string& name) { return name.find_first_of("*?") != std::string::npos; }
+
+bool describesLight(const LightParams& params) {
+  return !params.position.empty() || (!params.direction.empty() && params.type == LightKind::sun);
+}
+
+std::vector<FrameLight> allLights(const Look& look, const Sidecar* sidecar, int frame) {
+  std::vector<FrameLight> lights;
+  if (sidecar)
+    for (const SidecarLight& light : sidecar->lights) lights.push_back(fromSidecar(look, light));
+  for (const LightLook& settings : look.lights) {
+    const std::string& name = settings.light.name;
+    if (isGlob(name) || (sidecar && sidecar->findLight(name))) continue;
+    if (!describesLight(settings.light)) {
+      std::vector<std::string> names;
+      for (const FrameLight& light : lights) names.push_back(light.name);
+      throw InputError(fmt::format(
+          "the look's light {} is not in the frame's sidecar (lights: {}){}; name one of them, or "
+          "give the light's position (or a sun's direction) in the look",
+          name, listNames(names), didYouMean(name, names)));
+    }
+    lights.push_back(fromLook(look, settings, frame));
+  }
+  return lights;
+}
+
+std::string_view methodName(ShadowMethod method) {
+  return shadowMethodNames[static_cast<size_t>(method)];
+}
+
+void checkMethod(const FrameLight& light) {
+  if (light.method == ShadowMethod::pcf && !light.depthMap)
+    throw InputError(fmt::format(
+        "light {} has no depth map, which shadow.method = \"pcf\" needs; export it again with the "
+        "exporter, which writes one for each light",
+        light.name));
+  if (!needsMasks(light.method)) return;
+  const size_t needed = light.method == ShadowMethod::disc ? 5 : 2;
+  if (light.maskChannels.size() < needed)
+    throw InputError(fmt::format(
+        "light {} has {} masks, but shadow.method = \"{}\" needs {} or more; export it with --masks "
+        "{}",
+        light.name, light.maskChannels.size(), methodName(light.method), needed,
+        light.method == ShadowMethod::pair   ? "pair"
+        : light.method == ShadowMethod::line ? "line:5"
+                                             : "disc:9"));
+  if (light.method == ShadowMethod::pair && light.maskChannels.size() != 2)
+    throw InputError(fmt::format(
+        "light {} has {} masks, but shadow.method = \"pair\" needs the 2 of --masks pair",
+        light.name, light.maskChannels.size()));
+}
+
+}  // namespace
+
+std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
+                                     const ImageFile& image, int frame) {
+  std::vector<FrameLight> chosen;
+  std::vector<std::string> names;
+  for (FrameLight& light : allLights(look, sidecar, frame)) {
+    names.push_back(light.name);
+    if (!matchesAny(light.name, look.shadow.lights)) continue;
+    checkMethod(light);
+    for (std::string& mask : light.maskChannels) mask = requireMaskChannel(image, mask);
+    chosen.push_back(std::move(light));
+  }
+  if (chosen.empty())
+    throw InputError(fmt::format("no light takes part: shadow.lights asks for {}, the frame has {}",
+                                 listNames(look.shadow.lights), listNames(names)));
+  return chosen;
+}
+
+}  // namespace kagefude

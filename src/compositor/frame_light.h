@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frame/aov_resolver.h"
+#include "frame/sidecar.h"
+#include "look/look.h"
+#include "passes/light.h"
+
+namespace kagefude {
+
+/// Where a light's depth map is, and its camera.
+struct DepthMapSource {
+  std::filesystem::path file;
+  std::string channel;  ///< empty: the depth pass found by name
+  Transform lightFromWorld;
+  Transform clipFromLight;
+};
+
+/// One light of one frame: what the sidecar and the look together say of it.
+struct FrameLight {
+  std::string name;
+  Light light;
+  V3f subjectCentre{0, 0, 0};
+  float subjectRadius = 0;          ///< 0: unknown
+  float weight = 1;                 ///< share of the tone, before normalising over lights
+  ShadowMethod method = ShadowMethod::none;  ///< never `automatic`
+  float strength = 1;
+  PassParams passes;
+  std::vector<std::string> maskChannels;  ///< of the masks that the method needs
+  std::vector<V2f> places;                ///< of the same masks on the light, in radii
+  std::optional<DepthMapSource> depthMap;
+};
+
+/// The lights that take part in a frame, in the sidecar's order, then those that only the look
+/// describes. Throws InputError when a light lacks what its method needs, naming what to export;
+/// LookError when [shadow] lights or a [[light]] match nothing.
+std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
+                                     const ImageFile& image, int frame);
+
+}  // namespace kagefude

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compositor/frame_light.h"
+#include "compositor/frame_planes.h"
+
+namespace kagefude {
+
+/// Where a frame's ids come from.
+enum class IdSource { cryptomatte, index, surface };
+
+/// What has to be read for one frame, found out from headers, sidecar and look alone.
+struct FramePlan {
+  int frame = 0;
+  ImageFile image;
+  std::optional<Sidecar> sidecar;
+  std::vector<FrameLight> lights;
+  Aov position, normal;
+  std::optional<Aov> albedo, beauty;
+  IdSource idSource = IdSource::cryptomatte;
+  Aov objectId;
+  std::optional<Aov> materialId;             ///< only when a style asks for materials
+  std::map<uint32_t, std::string> objectNames;
+  std::map<uint32_t, std::string> materialNames;
+  std::vector<std::string> warnings;
+
+  /// Name of an object id for messages and styles; "" when nothing names it.
+  std::string objectName(uint32_t id) const;
+  /// The sidecar's object of that id, or null.
+  const SidecarObject* findObject(uint32_t id) const;
+};
+
+/// Opens a frame and finds every pass that the look needs. Throws InputError or LookError that name
+/// what is missing; nothing of the size of the picture is allocated.
+FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame);
+
+/// Reads the planned pixels. NaN and Inf make a pixel background and are counted.
+FramePlanes readFramePlanes(const FramePlan& plan);
+
+/// Bytes that a frame of this plan holds at once while it is composited, inputs and results.
+size_t frameMemory(const FramePlan& plan);
+
+}  // namespace kagefude

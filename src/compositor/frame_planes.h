@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "image/vec.h"
+
+namespace kagefude {
+
+/// The pixels that one light brings: its hard masks (1 = sees the light) or its depth map, whichever
+/// its method needs.
+struct LightPlanes {
+  std::vector<Bytes> masks;
+  Floats depthMap;
+};
+
+/// Everything that was read for one frame, one value a pixel of the data window. Empty where the
+/// look does not need it or the frame has none.
+struct FramePlanes {
+  int width = 0;
+  int height = 0;
+  Vec3Plane position;  ///< world
+  Vec3Plane normal;    ///< world, unit
+  Labels objectId;     ///< 0 = background
+  Labels materialId;
+  Vec3Plane albedo;
+  Vec3Plane beauty;
+  Floats alpha;
+  std::vector<LightPlanes> lights;  ///< in the order of the plan's lights
+  size_t badPixels = 0;             ///< pixels whose NaN or Inf made them background
+};
+
+}  // namespace kagefude

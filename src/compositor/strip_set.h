@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "frame/colour.h"
+#include "look/look.h"
+#include "passes/strip.h"
+
+namespace kagefude {
+
+/// The strips of a look, loaded once a run, in the working space with their mip levels.
+class StripSet {
+ public:
+  /// Loads every style's strip, and the one that surfaces without a style get. Throws InputError
+  /// when a file cannot be used, LookError when a built-in name is unknown.
+  StripSet(const Look& look, const Colour& colour);
+
+  /// The index of a style's strip in strips(); "builtin:soft" for surfaces without a style.
+  int indexOf(const std::string& name) const { return indices_.at(name); }
+  const std::vector<Strip>& strips() const { return strips_; }
+
+ private:
+  void load(const Look& look, const Colour& colour, const std::string& name);
+
+  std::vector<Strip> strips_;
+  std::map<std::string, int> indices_;
+};
+
+/// Whether a strip's name means one that is painted by the program itself.
+bool isBuiltinStrip(const std::string& name);
+
+}  // namespace kagefude

@@ -1,0 +1,169 @@
+#include "compositor/styled_surfaces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "base/error.h"
+#include "base/glob.h"
+#include "base/nearest_name.h"
+
+namespace kagefude {
+namespace {
+
+struct Surface {
+  uint32_t object = 0;
+  uint32_t material = 0;
+
+  bool operator==(const Surface&) const = default;
+};
+struct SurfaceHash {
+  size_t operator()(const Surface& s) const {
+    return std::hash<uint64_t>()(static_cast<uint64_t>(s.object) << 32 | s.material);
+  }
+};
+
+/// The seen surfaces in reading order, and the plane of their numbers, from 1.
+struct SurfaceIndex {
+  Plane<uint16_t> plane;
+  std::vector<Surface> surfaces;
+};
+
+SurfaceIndex indexSurfaces(const FramePlanes& frame) {
+  constexpr size_t mostSurfaces = 65535;
+  SurfaceIndex result{Plane<uint16_t>(frame.width, frame.height), {}};
+  std::unordered_map<Surface, uint16_t, SurfaceHash> numbers;
+  Surface last;
+  uint16_t lastNumber = 0;
+  const bool materials = !frame.materialId.empty();
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x) {
+      const uint32_t object = frame.objectId(x, y);
+      const Surface surface{object, object && materials ? frame.materialId(x, y) : 0};
+      if (!(surface == last)) {
+        last = surface;
+        lastNumber = 0;
+        if (object) {
+          const auto [found, isNew] =
+              numbers.try_emplace(surface, static_cast<uint16_t>(numbers.size() + 1));
+          if (isNew) result.surfaces.push_back(surface);
+          if (result.surfaces.size() > mostSurfaces)
+            throw InputError(fmt::format("the frame shows more than {} objects", mostSurfaces));
+          lastNumber = found->second;
+        }
+      }
+      result.plane(x, y) = lastNumber;
+    }
+  return result;
+}
+
+bool matches(const StyleParams& style, const FramePlan& plan, const Surface& surface) {
+  if (style.index != 0 && plan.idSource != IdSource::cryptomatte)
+    return surface.object == static_cast<uint32_t>(style.index);
+  if (style.index != 0) {
+    const SidecarObject* object = plan.findObject(surface.object);
+    return object && object->index == static_cast<uint32_t>(style.index);
+  }
+  if (!style.object.empty() && !matchesAny(plan.objectName(surface.object), style.object))
+    return false;
+  if (!style.material.empty()) {
+    const auto name = plan.materialNames.find(surface.material);
+    if (name == plan.materialNames.end() || !matchesAny(name->second, style.material)) return false;
+  }
+  return true;
+}
+
+const StyleLook* styleFor(const Look& look, const FramePlan& plan, const Surface& surface) {
+  for (const StyleLook& style : look.styles)
+    if (matches(style.style, plan, surface)) return &style;
+  return nullptr;
+}
+
+const FrameLight& lightFor(const FramePlan& plan, const StyleParams& style) {
+  if (style.light.empty())
+    return *std::max_element(
+        plan.lights.begin(), plan.lights.end(),
+        [](const FrameLight& a, const FrameLight& b) { return a.weight < b.weight; });
+  std::vector<std::string> names;
+  for (const FrameLight& light : plan.lights) {
+    if (light.name == style.light) return light;
+    names.push_back(light.name);
+  }
+  throw LookError(fmt::format("style.light {} is no light of the frame{}; there are {}",
+                              style.light, didYouMean(style.light, names), listNames(names)));
+}
+
+struct VisibleBounds {
+  V3f low{1e30f, 1e30f, 1e30f};
+  V3f high{-1e30f, -1e30f, -1e30f};
+};
+
+VisibleBounds visibleBounds(const SurfaceIndex& index, size_t number, Vec3View position) {
+  VisibleBounds bounds;
+  for (int y = 0; y < index.plane.height(); ++y)
+    for (int x = 0; x < index.plane.width(); ++x) {
+      if (index.plane(x, y) != number) continue;
+      const V3f p = position(x, y);
+      for (int k = 0; k < 3; ++k) {
+        bounds.low[k] = std::min(bounds.low[k], p[k]);
+        bounds.high[k] = std::max(bounds.high[k], p[k]);
+      }
+    }
+  return bounds;
+}
+
+BrushSubject subjectOf(const StyleParams& style, const FramePlan& plan, const FrameLight& light,
+                       const SurfaceIndex& index, size_t number, const FramePlanes& frame,
+                       std::vector<std::string>& warnings) {
+  BrushSubject subject;
+  subject.sceneRadius = light.subjectRadius;
+  const Surface& surface = index.surfaces[number - 1];
+  if (const SidecarObject* object = plan.findObject(surface.object)) {
+    subject.worldFromObject = object->worldFromObject;
+    subject.boundsMin = V3f(object->boundsMin);
+    subject.boundsMax = V3f(object->boundsMax);
+    subject.hasBounds = true;
+    subject.flat = object->flat;
+  } else {
+    const VisibleBounds bounds = visibleBounds(index, number, frame.position);
+    subject.boundsMin = bounds.low;
+    subject.boundsMax = bounds.high;
+    subject.hasBounds = true;
+    if (style.reference.empty())
+      warnings.push_back(fmt::format(
+          "object {} has no bounds in a sidecar, so its reference point is taken from what is seen "
+          "of it and will move with occlusion; give style.reference",
+          plan.objectName(surface.object).empty() ? fmt::format("{:08x}", surface.object)
+                                                  : plan.objectName(surface.object)));
+  }
+  if (!style.reference.empty())
+    subject.referencePoints = {V3f(style.reference[0], style.reference[1], style.reference[2])};
+  return subject;
+}
+
+}  // namespace
+
+StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const FramePlan& plan,
+                             const FramePlanes& planes, std::vector<std::string>& warnings) {
+  SurfaceIndex index = indexSurfaces(planes);
+  StyledSurfaces result;
+  const StyleLook fallback{{}, look.passes};
+  for (size_t number = 1; number <= index.surfaces.size(); ++number) {
+    const StyleLook* found = styleFor(look, plan, index.surfaces[number - 1]);
+    const StyleLook& style = found ? *found : fallback;
+    const FrameLight& light = lightFor(plan, style.style);
+    BrushSubject subject =
+        subjectOf(style.style, plan, light, index, number, planes, warnings);
+    subject.strip = strips.indexOf(style.style.strip);
+    result.anchors.push_back(makeBrushAnchor(subject, light.light, style.passes.brush));
+    result.tones.push_back(style.passes.tone);
+    result.multiplies.push_back(style.style.colour == StripColour::multiply ||
+                                (style.style.colour == StripColour::automatic &&
+                                 isBuiltinStrip(style.style.strip)));
+  }
+  result.anchorIndex = std::move(index.plane);
+  return result;
+}
+
+}  // namespace kagefude

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "compositor/frame_plan.h"
+#include "compositor/strip_set.h"
+#include "passes/brush_anchor.h"
+#include "passes/tone.h"
+
+namespace kagefude {
+
+/// Which strokes every pixel gets: one anchor for each pair of object and style that is seen.
+struct StyledSurfaces {
+  Plane<uint16_t> anchorIndex;  ///< 0 = background, i -> anchors[i - 1]
+  std::vector<BrushAnchor> anchors;
+  std::vector<ToneParams> tones;   ///< per anchor
+  std::vector<bool> multiplies;    ///< per anchor: the strip multiplies the surface's colour
+};
+
+/// Gives every object (and material, where styles ask) the first style that matches, or the look's
+/// own brush with the built-in strip, and lays its anchor by the sidecar's bounds and reference
+/// point. Objects that no sidecar describes are anchored at the middle of their visible pixels'
+/// bounds; `plan.warnings` is the caller's to extend with the returned `warnings`. Anchors are
+/// numbered by their first pixel in reading order. Throws InputError beyond 65,535 anchors,
+/// LookError when a style names a light that does not take part.
+StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const FramePlan& plan,
+                             const FramePlanes& planes, std::vector<std::string>& warnings);
+
+}  // namespace kagefude

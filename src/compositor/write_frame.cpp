@@ -1,0 +1,60 @@
+#include "compositor/write_frame.h"
+
+#include <algorithm>
+
+#include "frame/read_channels.h"
+#include "frame/write_image.h"
+
+namespace kagefude {
+namespace {
+
+bool isResultName(const std::string& name, const std::vector<OutputChannel>& own) {
+  return std::any_of(own.begin(), own.end(),
+                     [&](const OutputChannel& channel) { return channel.name == name; });
+}
+
+std::vector<RawPlane> readOthers(const FramePlan& plan, const std::vector<OutputChannel>& own) {
+  std::vector<std::string> names;
+  for (const Channel& channel : plan.image.channels)
+    if (!isResultName(channel.name, own)) names.push_back(channel.name);
+  return readRaw(plan.image, names);
+}
+
+}  // namespace
+
+void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& result,
+                const std::filesystem::path& path,
+                const std::map<std::string, std::string>& attributes) {
+  OutputImage image;
+  image.dataWindow = plan.image.dataWindow;
+  image.displayWindow = plan.image.displayWindow;
+  image.pixelAspect = plan.image.pixelAspect;
+  image.compression = look.output.compression;
+  image.source = &plan.image;
+  image.attributes = attributes;
+  const PixelType colour =
+      look.output.colour == PixelKind::half ? PixelType::half : PixelType::single;
+  image.channels = {floatChannel("R", colour, result.colour.x),
+                    floatChannel("G", colour, result.colour.y),
+                    floatChannel("B", colour, result.colour.z),
+                    floatChannel("A", colour, result.alpha)};
+  for (const NamedPlane& layer : result.layers)
+    image.channels.push_back(floatChannel(layer.name, PixelType::single, layer.plane));
+  if (!result.surfaceId.empty())
+    image.channels.push_back(labelChannel("surface.id", result.surfaceId));
+  std::vector<RawPlane> others;
+  if (look.output.passthrough) {
+    others = readOthers(plan, image.channels);
+    for (const RawPlane& plane : others) image.channels.push_back(rawChannel(plane));
+  }
+  writeExr(path, image);
+}
+
+void writePreview(const Look& look, const Colour& colour, const FrameResult& result,
+                  const std::filesystem::path& path) {
+  Floats r = result.colour.x.clone(), g = result.colour.y.clone(), b = result.colour.z.clone();
+  colour.toDisplay(r, g, b, look.colour.display, look.colour.view);
+  writePng(path, r, g, b);
+}
+
+}  // namespace kagefude

@@ -1,0 +1,138 @@
+#include "sequence/comp_batch.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/temp_file.h"
+#include "compositor/compose_frame.h"
+#include "compositor/write_frame.h"
+#include "sequence/fingerprint.h"
+
+namespace kagefude {
+namespace {
+
+std::filesystem::path sidecarPath(std::filesystem::path image) {
+  return image.replace_extension(".json");
+}
+
+void makeFolderOf(const std::filesystem::path& file) {
+  if (file.parent_path().empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  if (error)
+    throw OutputError(fmt::format("cannot make the folder {}: {}", file.parent_path().string(),
+                                  error.message()));
+}
+
+void removeLeftoversOf(const std::vector<FrameJob>& jobs) {
+  std::vector<std::filesystem::path> folders;
+  for (const FrameJob& job : jobs)
+    for (const auto& output : job.outputs)
+      if (std::find(folders.begin(), folders.end(), output.parent_path()) == folders.end())
+        folders.push_back(output.parent_path());
+  for (const auto& folder : folders) removeLeftovers(folder.empty() ? "." : folder);
+}
+
+}  // namespace
+
+struct CompBatch::Read {
+  FramePlan plan;
+  FramePlanes planes;
+  std::string fingerprint;
+};
+
+struct CompBatch::Composed {
+  FramePlan plan;
+  FrameResult result;
+  std::string fingerprint;
+};
+
+CompBatch::CompBatch(const Look& look, CompRequest request)
+    : look_(look),
+      request_(std::move(request)),
+      jobs_(planFrames(request_.plan)),
+      lookText_(resolvedText(look)),
+      colour_(look.colourConfig()),
+      strips_(look, colour_),
+      warnings_(jobs_.size()) {
+  if (jobs_.empty()) return;
+  try {
+    planFrame(look_, jobs_.front().inputs.front(), jobs_.front().frame);
+  } catch (const InputError&) {
+    if (!request_.skipBadFrames) throw;
+  }
+}
+
+std::string CompBatch::fingerprint(const FrameJob& job) const {
+  Fingerprint print;
+  print.add("version", KAGEFUDE_VERSION).add("look", lookText_);
+  for (const StyleLook& style : look_.styles)
+    if (!isBuiltinStrip(style.style.strip))
+      print.addFile("strip", look_.resolve(style.style.strip));
+  for (const auto& input : job.inputs)
+    print.addFile("input", input).addFile("sidecar", sidecarPath(input));
+  return print.hex();
+}
+
+bool CompBatch::isDone(size_t index) const {
+  if (request_.existing == ExistingOutputs::overwrite) return false;
+  const FrameJob& job = jobs_[index];
+  for (const auto& output : job.outputs)
+    if (!std::filesystem::exists(output)) return false;
+  if (request_.existing == ExistingOutputs::skip) return true;
+  try {
+    return openImage(job.outputs.front()).text(kFingerprintAttribute) == fingerprint(job);
+  } catch (const InputError&) {
+    return false;  // what cannot be read is not done
+  }
+}
+
+CompBatch::Read CompBatch::read(size_t index) const {
+  const FrameJob& job = jobs_[index];
+  if (job.missing)
+    throw InputError(fmt::format("{} is not there", job.missing->string()));
+  std::string print = fingerprint(job);
+  FramePlan plan = planFrame(look_, job.inputs.front(), job.frame);
+  FramePlanes planes = readFramePlanes(plan);
+  return {std::move(plan), std::move(planes), std::move(print)};
+}
+
+CompBatch::Composed CompBatch::compose(size_t index, Read input) {
+  FrameResult result = composeFrame(look_, strips_, input.plan, std::move(input.planes));
+  warnings_[index] = result.warnings;
+  return {std::move(input.plan), std::move(result), std::move(input.fingerprint)};
+}
+
+void CompBatch::write(size_t index, Composed output) const {
+  const std::vector<std::filesystem::path>& paths = jobs_[index].outputs;
+  // The EXR last: it carries the fingerprint that says all outputs of the frame are there.
+  for (size_t i = 1; i < paths.size(); ++i) {
+    makeFolderOf(paths[i]);
+    writePreview(look_, colour_, output.result, paths[i]);
+  }
+  makeFolderOf(paths.front());
+  writeFrame(look_, output.plan, output.result, paths.front(),
+             {{kFingerprintAttribute, output.fingerprint}});
+}
+
+BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame) {
+  removeLeftoversOf(jobs_);
+  Stages<Read, Composed> stages;
+  stages.read = [this](size_t i) { return read(i); };
+  stages.compute = [this](size_t i, Read input) { return compose(i, std::move(input)); };
+  stages.write = [this](size_t i, Composed output) { write(i, std::move(output)); };
+  stages.memory = [this](size_t i) {
+    return frameMemory(planFrame(look_, jobs_[i].inputs.front(), jobs_[i].frame));
+  };
+  stages.isDone = [this](size_t i) { return isDone(i); };
+  BatchOptions options;
+  options.maxMemory = request_.maxMemory;
+  options.skipBadFrames = request_.skipBadFrames;
+  options.stop = request_.stop;
+  options.onFrame = [&](const FrameEvent& event) {
+    onFrame({&jobs_[event.index], event, std::move(warnings_[event.index])});
+  };
+  return runBatch(jobs_.size(), stages, options);
+}
+
+}  // namespace kagefude

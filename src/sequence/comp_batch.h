@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "compositor/strip_set.h"
+#include "frame/colour.h"
+#include "look/look.h"
+#include "sequence/batch.h"
+#include "sequence/frame_plan.h"
+
+namespace kagefude {
+
+/// What to do about outputs that are there already: make them anew, keep them, or keep those whose
+/// fingerprint says that look, inputs and program are still the same.
+enum class ExistingOutputs { overwrite, skip, update };
+
+struct CompRequest {
+  PlanRequest plan;  ///< outputs[0] is the EXR, outputs[1], if any, the preview
+  ExistingOutputs existing = ExistingOutputs::overwrite;
+  size_t maxMemory = 0;
+  bool skipBadFrames = false;
+  std::stop_token stop;
+};
+
+/// One frame of a finished or running batch, as progress and report hear of it.
+struct CompEvent {
+  const FrameJob* job = nullptr;
+  FrameEvent frame;
+  std::vector<std::string> warnings;
+};
+
+/// Comps a sequence with one look. Plans every job and opens the first frame before anything is
+/// touched, so that an error of the look shows with nothing written.
+class CompBatch {
+ public:
+  /// Throws UsageError, LookError and InputError as planFrames, Look, Colour and StripSet do.
+  CompBatch(const Look& look, CompRequest request);
+
+  const std::vector<FrameJob>& jobs() const { return jobs_; }
+  /// Runs all jobs in the current TBB arena; `onFrame` is never called twice at a time.
+  BatchResult run(const std::function<void(const CompEvent&)>& onFrame);
+
+ private:
+  struct Read;
+  struct Composed;
+  Read read(size_t index) const;
+  Composed compose(size_t index, Read input);
+  void write(size_t index, Composed output) const;
+  bool isDone(size_t index) const;
+  std::string fingerprint(const FrameJob& job) const;
+
+  const Look& look_;
+  CompRequest request_;
+  std::vector<FrameJob> jobs_;
+  std::string lookText_;
+  Colour colour_;
+  StripSet strips_;
+  std::vector<std::vector<std::string>> warnings_;  ///< by job; written by its own stage only
+};
+
+}  // namespace kagefude
