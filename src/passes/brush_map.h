@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "passes/brush_anchor.h"
+#include "passes/strip.h"
+
+namespace kagefude {
+
+/// Scene-linear colour with associated alpha; angle and repeat are empty unless asked for.
+struct BrushResult {
+  Floats r, g, b, a;
+  Floats angle;   ///< W of the weightiest reference point, turns, [0, 1)
+  Floats repeat;  ///< Pd / Md of the same, its whole part is T
+};
+
+/// Brush touch (002 §3.5): colours every pixel of anchor index i > 0 from the strip of
+/// anchors[i - 1], row v = tone, and a place u along the row.
+/// - `seed`: C1 = strip(W T, c), C2 = strip(W (T + 1), c), M = C1 (1 - t) + C2 t (eq. 3.10, 3.11,
+///   mended: the seed's text swaps u and v), bilinear, T = 0 reads the left edge only.
+/// - `polar` **[ours]**: the same rings, but the cross-fade keeps the strip's contrast, lookups are
+///   filtered, the ring round the axis has one repeat that fades in over `pole_fade` rings.
+/// - `held` **[ours]**: u runs along the object's own axes, u_k = P_k / (2π Md), so that strokes
+/// stay
+///   on the object whatever light and camera do. Of the three axes those count that run along the
+///   tone's circles round the light axis (projected onto the surface when normals are given), by
+///   w_k = max(0, m_k - 1/5)², m_k the squared parts of that direction. There is no angle to wrap,
+///   no ring and no pole: on the axis all three weigh alike.
+/// Mixing, where several patterns meet (rings, axes, reference points, octaves):
+/// M = mean + contrast Σ w (C - mean) / √Σ w² with the row's mean colour, or / Σ w (linear).
+/// Negative results of that become 0. Filtering: footprints from the neighbours of the same anchor,
+/// of the two the one that differs less, so that silhouettes and hard shadow edges stay sharp;
+/// angles by their analytic derivative, so the wrap does not show.
+/// Index 0, indices beyond the list, and non-finite positions give 0; a NaN tone is 0. All planes
+/// must be of one size; `normal` may be empty; every strip index must be valid (InputError).
+/// Memory: 16 bytes a pixel for the result, 24 with diagnostics. The same bits for any threads.
+BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
+                       View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
+                       std::span<const Strip> strips, const BrushParams& params);
+
+}  // namespace kagefude

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "base/parameter.h"
+
+namespace kagefude {
+
+struct BrushParams {
+  enum class Mapping { held, polar, seed };
+  enum class CrossFade { variance, linear };
+  enum class Filter { anisotropic, bilinear };
+  enum class Size { object, screen };
+  Mapping mapping = Mapping::held;
+  CrossFade crossFade = CrossFade::variance;
+  Filter filter = Filter::anisotropic;
+  Size size = Size::object;
+  float mappingDistance = 0;
+  float stripPixels = 512;
+  float blendWidth = 0.5f;
+  float poleFade = 0.5f;
+  float contrast = 1;
+  int maxProbes = 8;
+  int points = 0;
+  float pointBlend = 0.6f;
+  bool diagnostics = false;
+};
+
+inline constexpr std::string_view brushMappings[] = {"held", "polar", "seed"};
+inline constexpr std::string_view brushCrossFades[] = {"variance", "linear"};
+inline constexpr std::string_view brushFilters[] = {"anisotropic", "bilinear"};
+inline constexpr std::string_view brushSizes[] = {"object", "screen"};
+inline constexpr Parameter brushParameters[] = {
+    choice<&BrushParams::mapping>("mapping", brushMappings,
+                                  "Where a stroke's place along its row comes from: held to the "
+                                  "object's own axes, the angle round the light's axis, or the "
+                                  "seed's formulas to the letter (mended)."),
+    choice<&BrushParams::crossFade>("cross_fade", brushCrossFades,
+                                    "How two stroke patterns mix: keeping the strip's contrast, "
+                                    "or linearly."),
+    choice<&BrushParams::filter>("filter", brushFilters,
+                                 "How the strip is read: averaged over the pixel's footprint, or "
+                                 "at one point."),
+    choice<&BrushParams::size>("size", brushSizes,
+                               "Whether strokes keep their size on the object or on the screen."),
+    number<&BrushParams::mappingDistance>("mapping_distance", 0, 1e6, "world units",
+                                          "Distance from the axis at which the strip goes round "
+                                          "once; 0 takes a quarter of the object's half size."),
+    number<&BrushParams::stripPixels>("strip_pixels", 8, 65536, "pixels",
+                                      "With size = screen: pixels that one width of the strip "
+                                      "covers at the reference point."),
+    number<&BrushParams::blendWidth>("blend_width", 0, 1, "rings",
+                                     "Share of a ring over which polar and seed strokes change to "
+                                     "the next repeat count."),
+    number<&BrushParams::poleFade>("pole_fade", 0, 4, "rings",
+                                   "Distance from the axis within which polar strokes fade in."),
+    number<&BrushParams::contrast>("contrast", 0, 4, "",
+                                   "Strength of the strokes against their row's mean colour."),
+    number<&BrushParams::maxProbes>("max_probes", 1, 64, "lookups",
+                                    "Most lookups along a stretched footprint; beyond it strokes "
+                                    "are blurred."),
+    number<&BrushParams::points>("points", 0, 16, "",
+                                 "Automatic reference points along the object's long side; 0 "
+                                 "takes one for each width that the length holds."),
+    number<&BrushParams::pointBlend>("point_blend", 0.01, 1, "gaps",
+                                     "Share of the gap between two reference points over which "
+                                     "one hands over to the other."),
+    plain<&BrushParams::diagnostics>("diagnostics", "Also give the angle and repeat pictures."),
+};
+inline constexpr ParameterTable brushTable{"brush", "Strokes from a painted strip along the tone.",
+                                           "002 eq. 3.2-3.11", brushParameters};
+
+}  // namespace kagefude

@@ -1,0 +1,123 @@
+#include "passes/brush_taps.h"
+
+#include <algorithm>
+
+namespace kagefude {
+namespace {
+
+// Keeps the three axes' and two octaves' patterns from showing the same strokes side by side.
+constexpr float axisOffset[3] = {0.0f, 0.381966f, 0.763932f};
+constexpr float octaveOffset = 0.236068f;
+// Share of the squared tangent below which an axis is not read at all.
+constexpr float axisThreshold = 0.2f;
+
+float smoothStep(float t) {
+  const float c = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
+  return c * c * (3.0f - 2.0f * c);
+}
+
+// One reference point's strokes at one mapping distance.
+void addRing(const BrushAnchor::Point& point, float mappingDistance, float share,
+             const BrushPixel& pixel, const BrushParams& params, BrushTaps& taps) {
+  const V3f q = pixel.position - point.position;
+  const float a = point.frame.l1.dot(q), b = point.frame.l2.dot(q);
+  const float squared = a * a + b * b;
+  const float angle = turnsOf(a, b);
+  // d atan2(a, b) = (b da - a db) / (a² + b²): no wrap in it.
+  const float scale = squared > 0.0f ? 1.0f / (2.0f * pi * squared) : 0.0f;
+  const auto turnsAlong = [&](const V3f& d) {
+    return (b * point.frame.l1.dot(d) - a * point.frame.l2.dot(d)) * scale;
+  };
+  const float alongX = turnsAlong(pixel.dx), alongY = turnsAlong(pixel.dy);
+  const BrushRepeat repeat = brushRepeat(std::sqrt(squared), mappingDistance, params.blendWidth);
+  const auto add = [&](float count, float weight) {
+    if (weight > 0.0f)
+      taps.add(angle * count, weight * share,
+               {alongX * count, pixel.toneDx, alongY * count, pixel.toneDy});
+  };
+  // The innermost ring draws ring 1's strokes, so nothing is mixed at its edge.
+  if (repeat.count < 1.0f) return add(1.0f, 1.0f);
+  add(repeat.count, 1.0f - repeat.next);
+  add(repeat.count + 1.0f, repeat.next);
+}
+
+// Part of the direction round the axis that lies in the surface.
+V3f strokeDirection(const BrushAnchor::Point& point, const BrushPixel& pixel) {
+  const V3f round = point.frame.axis.cross(pixel.position - point.position);
+  return round - pixel.normal * pixel.normal.dot(round);
+}
+
+}  // namespace
+
+BrushPlace brushPlace(const BrushAnchor& anchor, const V3f& p, float blend) {
+  BrushPlace place;
+  const size_t last = anchor.points.size() - 1;
+  if (last == 0) return place;
+  const float along = anchor.longSide.dot(p - anchor.object.origin);
+  while (place.point < last && along >= anchor.points[place.point + 1].along) ++place.point;
+  if (place.point == last) return place;
+  const float from = anchor.points[place.point].along, to = anchor.points[place.point + 1].along;
+  if (!(along > from) || !(to > from)) return place;
+  place.next = smoothStep(((along - from) / (to - from) - 0.5f) / blend + 0.5f);
+  return place;
+}
+
+void addSeedTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                 BrushTaps& taps) {
+  const BrushAnchor::Point& point = anchor.points[brushPlace(anchor, pixel.position, 1.0f).point];
+  const float angle = brushAngle(point.frame, point.position, pixel.position);
+  const BrushRepeat repeat = brushRepeat(axisDistance(point.frame, point.position, pixel.position),
+                                         anchor.mappingDistance, params.blendWidth);
+  taps.add(angle * repeat.count, 1.0f - repeat.next, {});
+  taps.add(angle * (repeat.count + 1.0f), repeat.next, {});
+}
+
+void addPolarTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                  BrushTaps& taps) {
+  const BrushPlace place = brushPlace(anchor, pixel.position, params.pointBlend);
+  float distance = 0;
+  for (int i = 0; i < 2; ++i) {
+    const float share = i == 0 ? 1.0f - place.next : place.next;
+    if (!(share > 0.0f)) continue;
+    const BrushAnchor::Point& point = anchor.points[place.point + static_cast<size_t>(i)];
+    distance += share * axisDistance(point.frame, point.position, pixel.position);
+    if (anchor.coarser < 1.0f)
+      addRing(point, anchor.mappingDistance, share * (1.0f - anchor.coarser), pixel, params, taps);
+    if (anchor.coarser > 0.0f)
+      addRing(point, 2.0f * anchor.mappingDistance, share * anchor.coarser, pixel, params, taps);
+  }
+  if (params.poleFade > 0.0f)
+    taps.amplitude = smoothStep(distance / (params.poleFade * anchor.mappingDistance));
+}
+
+void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                 BrushTaps& taps) {
+  const BrushPlace place = brushPlace(anchor, pixel.position, params.pointBlend);
+  const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
+  const float near = 0.05f * anchor.mappingDistance;
+  float parts[3] = {near * near, near * near, near * near};
+  for (int i = 0; i < 2; ++i) {
+    const float share = i == 0 ? 1.0f - place.next : place.next;
+    if (!(share > 0.0f)) continue;
+    const V3f along = strokeDirection(anchor.points[place.point + static_cast<size_t>(i)], pixel);
+    for (int k = 0; k < 3; ++k) parts[k] += share * along.dot(axes[k]) * along.dot(axes[k]);
+  }
+  const float sum = parts[0] + parts[1] + parts[2];
+  const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
+  const V3f q = pixel.position - anchor.object.origin;
+  for (int k = 0; k < 3; ++k) {
+    const float excess = parts[k] / sum - axisThreshold;
+    if (!(excess > 0.0f)) continue;
+    const float weight = excess * excess;
+    const auto add = [&](float unit, float offset, float share) {
+      if (share > 0.0f)
+        taps.add(axes[k].dot(q) * unit + offset, weight * share,
+                 {axes[k].dot(pixel.dx) * unit, pixel.toneDx, axes[k].dot(pixel.dy) * unit,
+                  pixel.toneDy});
+    };
+    add(perUnit, axisOffset[k], 1.0f - anchor.coarser);
+    add(0.5f * perUnit, axisOffset[k] + octaveOffset, anchor.coarser);
+  }
+}
+
+}  // namespace kagefude

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "passes/brush_anchor.h"
+#include "passes/brush_angle.h"
+#include "passes/brush_repeat.h"
+#include "passes/strip.h"
+
+// Where one pixel reads its strip: the brush pass's mathematics without its loops.
+namespace kagefude {
+
+/// One pixel of the brush pass: place, normal (zero: unknown), tone, and their change to the next
+/// pixel in x and y.
+struct BrushPixel {
+  V3f position, normal;
+  V3f dx{0, 0, 0}, dy{0, 0, 0};
+  float tone = 0, toneDx = 0, toneDy = 0;
+};
+
+/// The places on the strip that are mixed at one pixel, with their weights.
+struct BrushTaps {
+  static constexpr int most = 8;
+  int count = 0;
+  float u[most];
+  float weight[most];
+  Footprint footprint[most];
+  float amplitude = 1;  ///< of the strokes against the row's mean
+
+  void add(float place, float share, const Footprint& f) {
+    u[count] = place;
+    weight[count] = share;
+    footprint[count++] = f;
+  }
+};
+
+/// The reference points that hold at p: the first of two neighbours and the share of the second.
+struct BrushPlace {
+  size_t point = 0;
+  float next = 0;
+};
+
+/// Smooth weights along the anchor's long side, over `blend` of each gap between two points.
+BrushPlace brushPlace(const BrushAnchor& anchor, const V3f& p, float blend);
+
+/// Places of the seed's two lookups (002 eq. 3.10) with the weights 1 - t and t (eq. 3.11).
+void addSeedTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                 BrushTaps& taps);
+
+/// The same rings with analytic footprints and a fade round the axis.
+void addPolarTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                  BrushTaps& taps);
+
+/// Places along the object's own axes.
+void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                 BrushTaps& taps);
+
+}  // namespace kagefude

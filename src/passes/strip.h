@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "image/plane.h"
+
+namespace kagefude {
+
+/// One colour: red, green, blue and alpha side by side, so that a lookup works on all four at once.
+using Rgba = float __attribute__((vector_size(16)));
+
+/// How far a picture of one pixel reaches on a strip: the change of (u, v) from this pixel to the
+/// next one to the right (x) and to the next one below (y).
+struct Footprint {
+  float ux = 0, vx = 0, uy = 0, vy = 0;
+};
+
+/// A painted gradient as the brush pass reads it (002 §3.1): scene-linear colour with associated
+/// alpha; v is the tone, 1 on the top edge and 0 on the bottom edge, clamped; u runs round and
+/// repeats with period 1. Holds a chain of box-filtered half-size copies, each of which repeats in
+/// u like the first, and the mean colour of every row. Movable, about 1.4 x 16 bytes a pixel.
+struct Strip {
+  struct Level {
+    int width = 0, height = 0;
+    Plane<Rgba> texels;    ///< row 0 is the brightest
+    Plane<Rgba> rowMeans;  ///< 1 x height
+  };
+  std::vector<Level> levels;
+
+  int width() const { return levels.front().width; }
+  int height() const { return levels.front().height; }
+};
+
+/// Builds a strip from planes of equal size, alpha optional (empty: opaque) and already associated.
+/// Throws InputError on an empty picture and on one beyond 16384 pixels a side. Non-finite texels
+/// become 0. Cost: one pass over the picture, and a third of that again for the chain.
+Strip makeStrip(View<const float> r, View<const float> g, View<const float> b,
+                View<const float> a = {});
+
+/// The seed's lookup: bilinear between the centres of the full-size texels.
+Rgba stripBilinear(const Strip& strip, float u, float v);
+
+/// **[ours]** Mean over the footprint: probes along the long axis of the pixel's ellipse, at most
+/// `maxProbes` (beyond that blurred rather than aliased), each trilinear in the chain at the width
+/// of the short axis. A footprint below one texel is stripBilinear, bit for bit. Differences in u
+/// must be given without the wrap (0.1 over the seam from 0.95 to 0.05, not -0.9).
+/// Against an average of many bilinear lookups: within about 0.02 of the strip's range (tested).
+Rgba stripFiltered(const Strip& strip, float u, float v, const Footprint& footprint, int maxProbes);
+
+/// Mean colour of the strip's row at v, smoothed over dv of the height (0: none).
+Rgba stripRowMean(const Strip& strip, float v, float dv);
+
+}  // namespace kagefude

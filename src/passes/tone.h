@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/parameter.h"
+#include "image/plane.h"
+
+namespace kagefude {
+
+struct ToneParams {
+  float black = 0;
+  float white = 1;
+  float gamma = 1;
+};
+
+inline constexpr Parameter toneParameters[] = {
+    number<&ToneParams::black>("black", -1, 1, "tone", "Tone that becomes the darkest row."),
+    number<&ToneParams::white>("white", 0, 2, "tone", "Tone that becomes the brightest row."),
+    number<&ToneParams::gamma>("gamma", 0.05, 20, "",
+                               "Power by which middle tones are lifted: above 1 brighter, below 1 "
+                               "darker."),
+};
+inline constexpr ParameterTable toneTable{
+    "tone", "Levels and gamma between the tone and the strip's rows.", "ours", toneParameters};
+
+/// **[ours]** Levels as paint programs have them: ((c - black) / (white - black))^(1/gamma),
+/// clamped to [0, 1]. white <= black makes a hard step: 1 where c >= white. NaN gives 0.
+float adjustTone(float tone, const ToneParams& params);
+
+/// The same on a whole plane, in place.
+void adjustTone(View<float> tone, const ToneParams& params);
+
+/// The same with one setting a style: a pixel of index i > 0 takes perAnchor[i - 1]; index 0 and
+/// indices beyond the list keep their tone.
+void adjustTone(View<float> tone, View<const uint16_t> anchorIndex,
+                std::span<const ToneParams> perAnchor);
+
+}  // namespace kagefude
