@@ -61,7 +61,7 @@ fs::path folderOf(const fs::path& target) {
 std::string tempName(const std::string& target, unsigned long number) {
   const std::string tail =
       fmt::format("{}{}-{}-{}{}", kMark, hostToken(), static_cast<long>(getpid()), number, kEnd);
-  return "." + target.substr(0, kLongestName - 1 - tail.size()) + tail;
+  return fmt::format(".{}{}", target.substr(0, kLongestName - 1 - tail.size()), tail);
 }
 
 std::string reason(int error) { return std::strerror(error); }
@@ -124,7 +124,9 @@ TempFile::TempFile(fs::path target) : target_(std::move(target)) {
   std::lock_guard lock(live.mutex);
   if (live.closed)
     throw OutputError(fmt::format("did not write {}: interrupted", target_.string()));
-  const fs::path folder = fs::absolute(folderOf(target_));
+  std::error_code missing;
+  fs::path folder = fs::canonical(folderOf(target_), missing);
+  if (missing) folder = folderOf(target_);
   int file = -1;
   int error = EEXIST;
   while (file < 0 && error == EEXIST) {
@@ -191,8 +193,10 @@ std::optional<TempName> parseTempName(std::string_view fileName) {
 std::vector<fs::path> removeLeftovers(const fs::path& folder) {
   std::vector<fs::path> removed;
   std::error_code failed;
-  for (fs::directory_iterator entry(fs::absolute(folder.empty() ? "." : folder), failed), end;
-       !failed && entry != end; entry.increment(failed)) {
+  const fs::path place = fs::canonical(folder.empty() ? "." : folder, failed);
+  if (failed) return removed;
+  for (fs::directory_iterator entry(place, failed), end; !failed && entry != end;
+       entry.increment(failed)) {
     const auto name = parseTempName(entry->path().filename().string());
     if (!name || !isAbandoned(entry->path(), *name)) continue;
     if (unlink(entry->path().c_str()) == 0) removed.push_back(entry->path());
