@@ -1,0 +1,103 @@
+#include "sequence/fingerprint.h"
+
+#include <OpenImageIO/hash.h>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <vector>
+
+#include "base/error.h"
+
+namespace kagefude {
+namespace {
+
+constexpr int64_t kReadWhole = int64_t{1} << 20;
+constexpr int64_t kSample = 4096;
+constexpr int64_t kSamples = 64;
+
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& path)
+      : path_(path), file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (file_ < 0 && errno != ENOENT) fail();
+  }
+  ~OpenFile() {
+    if (file_ >= 0) close(file_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  bool exists() const { return file_ >= 0; }
+
+  struct stat status() const {
+    struct stat result {};
+    if (fstat(file_, &result) != 0) fail();
+    return result;
+  }
+
+  std::string bytes(int64_t from, int64_t count) const {
+    std::string buffer(static_cast<size_t>(count), '\0');
+    size_t have = 0;
+    while (have < buffer.size()) {
+      const ssize_t got =
+          pread(file_, buffer.data() + have, buffer.size() - have, from + static_cast<off_t>(have));
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) fail();
+      if (got == 0) break;
+      have += static_cast<size_t>(got);
+    }
+    buffer.resize(have);
+    return buffer;
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw InputError(fmt::format("cannot read {}: {}", path_.string(), std::strerror(errno)));
+  }
+
+  const std::filesystem::path& path_;
+  int file_;
+};
+
+}  // namespace
+
+Fingerprint::Fingerprint() : digest_(40, '0') {}
+
+Fingerprint& Fingerprint::add(std::string_view label, std::string_view bytes) {
+  OIIO::SHA1 sha(digest_.data(), digest_.size());
+  const std::string lengths = fmt::format("|{}|{}|", label.size(), bytes.size());
+  sha.append(lengths.data(), lengths.size());
+  sha.append(label.data(), label.size());
+  sha.append(bytes.data(), bytes.size());
+  digest_ = sha.digest();
+  return *this;
+}
+
+Fingerprint& Fingerprint::add(std::string_view label, int64_t number) {
+  return add(label, fmt::format("{}", number));
+}
+
+Fingerprint& Fingerprint::addFile(std::string_view label, const std::filesystem::path& file) {
+  add(label, file.filename().string());
+  const OpenFile opened(file);
+  if (!opened.exists()) return add("missing", "");
+  const struct stat status = opened.status();
+  if (!S_ISREG(status.st_mode))
+    throw InputError(fmt::format("cannot read {}: it is not a regular file", file.string()));
+  const int64_t size = status.st_size;
+  add("size", size);
+  if (size <= kReadWhole) return add("content", opened.bytes(0, size));
+  add("changed", status.st_mtim.tv_sec * int64_t{1'000'000'000} + status.st_mtim.tv_nsec);
+  std::string samples;
+  for (int64_t i = 0; i < kSamples; ++i)
+    samples += opened.bytes((size - kSample) / (kSamples - 1) * i, kSample);
+  return add("samples", samples + opened.bytes(size - kSample, kSample));
+}
+
+std::string Fingerprint::hex() const { return digest_.substr(0, 32); }
+
+}  // namespace kagefude
