@@ -1,0 +1,87 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "frame/image_file.h"
+
+namespace kagefude {
+
+enum class AovKind {
+  position,
+  normal,
+  depth,
+  objectIndex,
+  materialIndex,
+  vector,
+  albedo,
+  beauty,
+  shadow,
+  cryptoObject,
+  cryptoMaterial,
+  surface
+};
+
+/// What the look (section `frame`) says about a frame's names; empty means: find it. A pass may be
+/// named with its layer ("fg.Position"), without ("Position", then `layer` applies), or by a single
+/// channel ("fg.Depth.Z").
+struct AovNames {
+  std::string layer;        ///< of the data passes
+  std::string beautyLayer;  ///< of the beauty pass
+  std::string view;         ///< of a multi-view file ("left")
+  std::string position, normal, depth, objectIndex, materialIndex, vector, albedo, beauty, shadow;
+  std::string cryptoObject, cryptoMaterial;
+  std::string surface;  ///< surface ids made elsewhere; has no name of its own to be found by
+
+  const std::string& of(AovKind kind) const;
+};
+
+/// A pass that was found. `name` is layer.pass. Channels are in the order x y z w, or r g b a; for
+/// Cryptomatte: id, coverage, id, coverage ... by rank.
+struct Aov {
+  std::string name;
+  std::vector<std::string> channels;
+};
+
+/// A pass as its channel names show it. "Fog.001.Depth.Z" is layer "Fog.001", pass "Depth".
+struct PassChannels {
+  std::string layer;
+  std::string pass;  ///< "" for bare R, G, B, A
+  std::string view;
+  std::vector<std::string> channels;
+};
+
+/// Sorts a file's channels into layers and passes. Names are split from the right, because layer
+/// names may contain dots and spaces: a last part that is a component (x y z w, r g b a, u v,
+/// red ... in any case) is taken off; what is then last is the pass, or, when it is no pass that
+/// we know but the one before it is, the view of a multi-view file. The rest is the layer.
+std::vector<PassChannels> listPasses(const ImageFile& file);
+
+/// The names of the layers, in file order; "" (channels without a layer) is left out.
+std::vector<std::string> listLayers(const std::vector<PassChannels>& passes);
+
+/// Finds a pass: the override if there is one, else by the table of known names (Blender 2.8 to 4,
+/// the File Output node, Arnold, V-Ray, Karma, RenderMan), letter case, "_" and spaces ignored, in
+/// `layer` (beauty: `beautyLayer`, else the layer of the data, else bare R G B A). Without a layer
+/// name, the one layer that has the pass; several: the one that also has Position and Normal;
+/// layers named mask.* and truth.* only if there is no other. Earlier names in the table win over
+/// later ones. Nothing when no pass fits. Throws InputError when an override names nothing, when
+/// layers stay ambiguous, or when a pass has too few channels.
+std::optional<Aov> findAov(const ImageFile& file, const AovNames& names, AovKind kind);
+
+/// As findAov, but a missing pass is an InputError that lists layers and passes, names the nearest,
+/// and says what to turn on and which key of the look names it.
+Aov requireAov(const ImageFile& file, const AovNames& names, AovKind kind);
+
+/// The one channel of a shadow mask or truth layer ("mask.Key.0"): the first of its Shadow pass,
+/// else of its only pass, else of the pass by that full name. Throws InputError naming the nearest
+/// layer.
+std::string requireMaskChannel(const ImageFile& file, const std::string& layer);
+
+/// Everyday name of a kind as messages use it ("Position"), and the look's key ("frame.position").
+std::string_view aovName(AovKind kind);
+std::string aovKey(AovKind kind);
+
+}  // namespace kagefude

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "image/plane.h"
+
+namespace kagefude {
+
+/// Colour transforms by an OpenColorIO configuration. Colour only: never hand data planes to it.
+/// Transforms are the configuration's own, on the CPU, by OCIO's portable code: the same bits for
+/// any number of threads. Planes are changed in place; all three must be of one size.
+class Colour {
+ public:
+  /// `config` is a path; empty: the file that $OCIO names, else the built-in configuration (spaces
+  /// "Linear Rec.709", "sRGB", "Raw"; display "sRGB" with views "Standard" and "Raw"). Throws
+  /// InputError when it cannot be read or has no scene_linear role.
+  explicit Colour(const std::string& config = "");
+  ~Colour();
+  Colour(Colour&&) noexcept;
+  Colour& operator=(Colour&&) noexcept;
+
+  /// From a named space (or role, or alias) to the working space (role scene_linear). Throws
+  /// LookError naming the nearest space when it is unknown.
+  void toWorking(View<float> red, View<float> green, View<float> blue,
+                 std::string_view fromSpace) const;
+  /// From the working space to a named one.
+  void fromWorking(View<float> red, View<float> green, View<float> blue,
+                   std::string_view toSpace) const;
+  /// From the working space to what a display shows; empty names mean the configuration's default
+  /// display and that display's default view. Throws LookError naming the nearest.
+  void toDisplay(View<float> red, View<float> green, View<float> blue,
+                 std::string_view display = {}, std::string_view view = {}) const;
+
+  /// Where the configuration comes from: a path or "built-in".
+  const std::string& source() const;
+  std::string workingSpace() const;
+  bool hasSpace(std::string_view name) const;
+  std::vector<std::string> spaces() const;
+  std::vector<std::string> displays() const;
+  std::vector<std::string> views(std::string_view display) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The text of the built-in OCIO configuration.
+std::string_view builtInColourConfig();
+
+}  // namespace kagefude

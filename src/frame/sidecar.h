@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "image/vec.h"
+
+namespace kagefude {
+
+// The JSON file beside each frame, format version 1: camera, lights, objects. World space is the
+// renderer's, lengths are world units, matrices map columns (p' = M p).
+
+struct Camera {
+  bool perspective = true;
+  V3d position{0, 0, 0};
+  V3d direction{0, 0, -1};  ///< unit, the way it looks
+  Transform cameraFromWorld;
+  Transform clipFromCamera;
+};
+
+struct MaskSample {
+  std::string layer;      ///< EXR layer that holds the mask
+  V3d position{0, 0, 0};  ///< of the point light that cast it; for a sun at a nominal distance
+  std::optional<V3d> direction;  ///< sun: the way that sample's light travels
+  double u = 0, v = 0;           ///< place on the light in units of the arrangement's offset
+};
+
+enum class MaskArrangement { pair, line, disc };
+
+struct LightMasks {
+  MaskArrangement arrangement = MaskArrangement::pair;
+  double offset = 0;  ///< world units; pair: the seed's l; line: half its length; disc: its radius
+  std::vector<MaskSample> samples;
+};
+
+struct LightDepthMap {
+  std::filesystem::path file;  ///< beside the JSON; already joined with its folder
+  std::string channel;
+  int width = 0, height = 0;
+  bool perspective = true;
+  Transform lightFromWorld;  ///< the light's camera looks along -Z; stored depth is -z there
+  Transform clipFromLight;
+};
+
+enum class LightType { point, spot, sun, area };
+
+struct SidecarLight {
+  std::string name;
+  LightType type = LightType::point;
+  V3d position{0, 0, 0};
+  V3d direction{0, 0, -1};  ///< unit, the way its light travels; point: towards the subject
+  double radius = 0;        ///< world units; sun: tangent of half its angle
+  std::array<double, 3> color{1, 1, 1};
+  double energy = 1;     ///< watts
+  double coneAngle = 0;  ///< spot: full angle, radians
+  double coneBlend = 0;  ///< spot: 0..1
+  V3d subjectCenter{0, 0, 0};
+  double subjectRadius = 0;            ///< of the bounding sphere of what it lights; 0: not given
+  V3d axisU{0, 0, 0}, axisV{0, 0, 0};  ///< world directions of u and v; 0: not given
+  std::optional<LightMasks> masks;
+  std::optional<LightDepthMap> depthMap;
+  std::string truthLayer;  ///< "" when no truth was traced
+  int truthSamples = 0;
+};
+
+struct SidecarObject {
+  std::string name;
+  uint32_t index = 0;     ///< IndexOB
+  uint32_t cryptoId = 0;  ///< Cryptomatte id; from the name when not given
+  Transform worldFromObject;
+  V3d boundsMin{0, 0, 0}, boundsMax{0, 0, 0};  ///< object space
+  V3d referencePoint{0, 0, 0};                 ///< world space
+  std::vector<std::string> materials;
+  bool flat = false;  ///< thinnest extent below 2 % of the largest
+};
+
+struct SidecarMaterial {
+  std::string name;
+  uint32_t index = 0;     ///< IndexMA
+  uint32_t cryptoId = 0;  ///< from the name when not given
+};
+
+struct Sidecar {
+  std::filesystem::path path;
+  int frame = 0;
+  double fps = 24;
+  std::string image;
+  int width = 0, height = 0;
+  double pixelAspect = 1;
+  std::string dataLayer, beautyLayer;  ///< "" when not given
+  Camera camera;
+  std::vector<SidecarLight> lights;
+  std::vector<SidecarObject> objects;
+  std::vector<SidecarMaterial> materials;
+
+  const SidecarLight* findLight(std::string_view name) const;
+  const SidecarObject* findObject(std::string_view name) const;
+  const SidecarObject* findObject(uint32_t index) const;
+};
+
+/// Reads and validates a sidecar. Unknown keys are ignored. Throws InputError with the file, the
+/// place in it ("lights[0].masks.samples[2].position") and what was expected, when the file is
+/// unreadable, above 64 MiB or not JSON, when its version is not 1, when a needed key is missing or
+/// of another type, a number is not finite or out of range, a list is too long, a name is used
+/// twice, a mask arrangement has the wrong number of samples, or a path leaves the folder.
+Sidecar readSidecar(const std::filesystem::path& path);
+
+/// The sidecar of a frame: the same path with .json in place of the extension; nothing when there
+/// is no such file. Throws as readSidecar does.
+std::optional<Sidecar> findSidecar(const std::filesystem::path& imagePath);
+
+}  // namespace kagefude
