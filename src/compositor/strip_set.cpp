@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "frame/strip_file.h"
@@ -28,7 +30,7 @@ void StripSet::load(const Look& look, const Colour& colour, const std::string& n
       look.colour.strip.empty() ? std::string(paintedSpace) : look.colour.strip;
   if (isBuiltinStrip(name)) {
     const std::string preset = name.substr(builtinPrefix.size());
-    const auto names = stripPresetNames();
+    const std::vector<std::string> names(std::begin(stripPresets), std::end(stripPresets));
     if (std::find(names.begin(), names.end(), preset) == names.end())
       throw LookError(fmt::format("there is no built-in strip {}{}; there are {}", preset,
                                   didYouMean(preset, names), listNames(names)));

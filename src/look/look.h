@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/aov_names.h"
+#include "frame/aov_resolver.h"
 #include "look/pass_list.h"
 #include "look/sections.h"
 

@@ -69,6 +69,12 @@ void insertValue(toml::table& section, const std::string& key, const std::string
 
 }  // namespace
 
+void setValue(toml::table& section, const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) fail(text, "expected key=value");
+  insertValue(section, text.substr(0, equals), text.substr(equals + 1));
+}
+
 void applyOverride(toml::table& look, const std::string& text) {
   const size_t equals = text.find('=');
   if (equals == std::string::npos) fail(text, "expected section.key=value");

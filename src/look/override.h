@@ -11,4 +11,7 @@ namespace kagefude {
 /// text has no '=', the path is malformed, or it leads through something that is no section.
 void applyOverride(toml::table& look, const std::string& text);
 
+/// The same for a single section: "key=value".
+void setValue(toml::table& section, const std::string& text);
+
 }  // namespace kagefude

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "frame/aov_names.h"
+#include "frame/aov_resolver.h"
 #include "look/sections.h"
 
 namespace kagefude {

@@ -82,7 +82,7 @@ class Painter {
       paintRow(row, height - (static_cast<float>(row) + 0.5f) * step, step);
   }
 
-  StripPicture take() { return std::move(picture_); }
+  PaintedStrip take() { return std::move(picture_); }
 
  private:
   void paintRow(int row, float y, float step) {
@@ -163,12 +163,12 @@ class Painter {
   }
 
   const StripPaintParams& params_;
-  StripPicture picture_;
+  PaintedStrip picture_;
 };
 
 }  // namespace
 
-StripPicture paintStrip(const StripPaintParams& params) {
+PaintedStrip paintStrip(const StripPaintParams& params) {
   checkStops(params.stops);
   Painter painter(params);
   painter.paintRows();

@@ -60,7 +60,7 @@ inline constexpr ParameterTable stripTable{"strip", "A strip painted from a few 
                                            "002 §2.2", stripParameters};
 
 /// Display-encoded sRGB colour, 0..1; row 0 is the brightest.
-struct StripPicture {
+struct PaintedStrip {
   Floats r, g, b;
 };
 
@@ -72,7 +72,7 @@ struct StripPicture {
 /// With `bands`, colours come in flat bands taken at the bands' middles.
 /// Throws LookError unless there are at least two stops whose places rise from 0 to 1.
 /// Cost: about π/4 · height / (spacing · stroke_width) · 2 brush areas a column; 512² takes 0.1 s.
-StripPicture paintStrip(const StripPaintParams& params);
+PaintedStrip paintStrip(const StripPaintParams& params);
 
 /// The parameters of the strips that are shipped: "soft" (wide soft strokes), "fine" (fine
 /// strokes), "cel" (flat bands with strokes at the steps). Throws UsageError for any other name.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sequence/frame_pattern.h"
+#include "base/frame_pattern.h"
 #include "sequence/frame_range.h"
 
 namespace kagefude {
