@@ -55,20 +55,23 @@ struct PassChannels {
 
 /// Sorts a file's channels into layers and passes. Names are split from the right, because layer
 /// names may contain dots and spaces: a last part that is a component (x y z w, r g b a, u v,
-/// red ... in any case) is taken off; what is then last is the pass, or, when it is no pass that
-/// we know but the one before it is, the view of a multi-view file. The rest is the layer.
+/// red ... in any case) is taken off; then a view that the header lists (or left, right); what is
+/// then last is the pass, the rest is the layer. Bare R, G, B, A are the pass "".
 std::vector<PassChannels> listPasses(const ImageFile& file);
 
 /// The names of the layers, in file order; "" (channels without a layer) is left out.
 std::vector<std::string> listLayers(const std::vector<PassChannels>& passes);
 
 /// Finds a pass: the override if there is one, else by the table of known names (Blender 2.8 to 4,
-/// the File Output node, Arnold, V-Ray, Karma, RenderMan), letter case, "_" and spaces ignored, in
-/// `layer` (beauty: `beautyLayer`, else the layer of the data, else bare R G B A). Without a layer
-/// name, the one layer that has the pass; several: the one that also has Position and Normal;
-/// layers named mask.* and truth.* only if there is no other. Earlier names in the table win over
-/// later ones. Nothing when no pass fits. Throws InputError when an override names nothing, when
-/// layers stay ambiguous, or when a pass has too few channels.
+/// the File Output node, Arnold, V-Ray, Karma, RenderMan), letter case, "_", "-" and spaces
+/// ignored; earlier names in the table win over later ones. Where it looks: in the layer that
+/// `names` gives; without one, in the one layer that has the pass, and among several in the one
+/// that also has Position and Normal. Layers named mask.* and truth.* count only if there is no
+/// other. The beauty: in `beautyLayer`, else in `layer`, else bare R G B A, else in a layer named
+/// beauty, else as above. Without `view` the default view (no view in the name) is meant, else the
+/// first in the file. Nothing when no pass fits. Throws InputError when an override names nothing,
+/// when layers stay ambiguous, or when a pass has too few channels. Channels beyond what the kind
+/// needs are left out.
 std::optional<Aov> findAov(const ImageFile& file, const AovNames& names, AovKind kind);
 
 /// As findAov, but a missing pass is an InputError that lists layers and passes, names the nearest,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frame/image_file.h"
+#include "frame/read_channels.h"
 #include "image/plane.h"
 
 namespace kagefude {
@@ -53,6 +54,9 @@ struct CryptomattePlanes {
 /// two layers have it, when an id channel is half float, which destroys ids (naming the channel),
 /// or when metadata states a hash or conversion other than the standard's.
 CryptomattePlanes readCryptomatte(const ImageFile& file, std::string_view name, int ranks = 0);
+
+/// The same, but the planes are only noted with the reader and hold pixels after its read().
+CryptomattePlanes requestCryptomatte(ChannelReader& reader, std::string_view name, int ranks = 0);
 
 /// The id with the most coverage at each pixel; equal coverage goes to the lower rank; no coverage
 /// gives 0. One rank: that rank's ids where covered.

@@ -44,6 +44,29 @@ struct PlaneTarget {
   void* pixels = nullptr;
 };
 
+/// Collects channels of one frame so that each chunk of the file is decoded once for all of them.
+/// Each call makes the plane and notes it; read() fills all. Planes may be moved in between (their
+/// pixels stay where they are) but must live until then. Errors are those of the functions above;
+/// asking for a channel twice, in whatever form, is allowed.
+class ChannelReader {
+ public:
+  explicit ChannelReader(const ImageFile& file) : file_(file) {}
+  void floats(const std::string& channelName, Floats& plane);
+  void bits(const std::string& channelName, Labels& plane);
+  void raw(const std::string& channelName, RawPlane& plane);
+  void read();
+  const ImageFile& file() const { return file_; }
+
+ private:
+  Window claim(const std::string& channelName, const Channel*& channel);
+
+  const ImageFile& file_;
+  std::vector<PlaneTarget> targets_;
+};
+
+/// Index plane of float values: rounded to the nearest; negative, NaN and above 2^32 - 1 give 0.
+Labels roundIndices(View<const float> values);
+
 /// Decodes all targets; the one place where pixels of frames are read. The targets' data windows
 /// have been checked to agree. Throws InputError.
 void readPlanes(const ImageFile& file, std::span<const PlaneTarget> targets);

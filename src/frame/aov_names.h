@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "frame/aov_resolver.h"
+
+namespace kagefude::detail {
+
+/// A name as the tables know it: lower case, without "_", "-" and spaces.
+std::string plainName(std::string_view name);
+
+/// How early in the table of a kind's known names a pass name stands; -1: not in it.
+int aliasRank(AovKind kind, std::string_view passName);
+
+/// Whether any renderer that we know calls a pass so; crypto layers with their two digits too.
+bool isKnownPass(std::string_view passName);
+
+/// Order of a component in its pass (x y z w; r g b a; u v a), or -1 when the text is no component.
+int componentOrder(std::string_view suffix);
+
+/// "CryptoObject00" gives "CryptoObject"; other names give "".
+std::string_view cryptomatteStem(std::string_view passName);
+
+}  // namespace kagefude::detail

@@ -1,0 +1,240 @@
+#include "frame/inspect_frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "frame/aov_names.h"
+#include "frame/cryptomatte.h"
+#include "frame/sidecar.h"
+
+namespace kagefude {
+namespace {
+
+constexpr std::array<AovKind, 11> shownKinds = {
+    AovKind::position,      AovKind::normal,       AovKind::depth,         AovKind::objectIndex,
+    AovKind::materialIndex, AovKind::vector,       AovKind::albedo,        AovKind::beauty,
+    AovKind::shadow,        AovKind::cryptoObject, AovKind::cryptoMaterial};
+
+void add(Inspection& inspection, FindingKind kind, std::string what, std::string remedy) {
+  inspection.findings.push_back({kind, std::move(what), std::move(remedy)});
+}
+
+std::string typeOf(const ImageFile& file, const std::vector<std::string>& channels) {
+  const PixelType first = file.findChannel(channels.front())->type;
+  const bool same = std::all_of(channels.begin(), channels.end(), [&](const std::string& name) {
+    return file.findChannel(name)->type == first;
+  });
+  return same ? std::string(pixelTypeName(first)) : "mixed";
+}
+
+void addLayers(Inspection& inspection, const ImageFile& file) {
+  for (const PassChannels& pass : listPasses(file)) {
+    auto& layers = inspection.layers;
+    auto layer = std::find_if(layers.begin(), layers.end(),
+                              [&](const InspectedLayer& l) { return l.name == pass.layer; });
+    if (layer == layers.end()) layer = layers.insert(layer, {pass.layer, {}});
+    const std::string name = pass.view.empty() ? pass.pass : pass.pass + "." + pass.view;
+    layer->passes.push_back(
+        {name.empty() ? "RGBA" : name, pass.channels, typeOf(file, pass.channels)});
+  }
+}
+
+void addAovs(Inspection& inspection, const ImageFile& file, const AovNames& names) {
+  for (const AovKind kind : shownKinds) {
+    InspectedAov aov{std::string(aovName(kind)), aovKey(kind), ""};
+    try {
+      if (const auto found = findAov(file, names, kind)) aov.pass = found->name;
+    } catch (const InputError& problem) {
+      add(inspection, FindingKind::error, problem.what(),
+          fmt::format("set {} in the look", aovKey(kind)));
+    }
+    inspection.aovs.push_back(std::move(aov));
+  }
+}
+
+bool isFound(const Inspection& inspection, AovKind kind) {
+  return std::any_of(inspection.aovs.begin(), inspection.aovs.end(), [&](const InspectedAov& aov) {
+    return aov.purpose == aovName(kind) && !aov.pass.empty();
+  });
+}
+
+void addMissing(Inspection& inspection) {
+  const auto need = [&](AovKind kind, std::string_view use) {
+    if (isFound(inspection, kind)) return;
+    add(inspection, FindingKind::missing,
+        fmt::format("there is no {} pass, which {} needs", aovName(kind), use),
+        fmt::format("turn it on in the renderer or the exporter, or name it with {}",
+                    aovKey(kind)));
+  };
+  need(AovKind::position, "the shadow search and the brush mapping");
+  need(AovKind::normal, "shading and the surface labels");
+  need(AovKind::beauty, "the background");
+  if (!isFound(inspection, AovKind::objectIndex)) {
+    if (!isFound(inspection, AovKind::cryptoObject)) {
+      add(inspection, FindingKind::missing,
+          "there is neither an object index nor an object Cryptomatte to tell surfaces apart",
+          "turn one of them on in the renderer, or name it with frame.object_index or "
+          "frame.crypto_object");
+    }
+  }
+}
+
+bool isData(const PassChannels& pass) {
+  const std::array<AovKind, 6> data = {AovKind::position,      AovKind::normal,
+                                       AovKind::depth,         AovKind::objectIndex,
+                                       AovKind::materialIndex, AovKind::vector};
+
+  return std::any_of(data.begin(), data.end(),
+                     [&](AovKind kind) { return detail::aliasRank(kind, pass.pass) >= 0; });
+}
+
+// DWA quantises channels that end in R, G, B or Y; PXR24 drops the last byte of every float; B44
+// packs half channels with loss.
+void addCodecWarnings(Inspection& inspection, const ImageFile& file) {
+  constexpr std::array<std::string_view, 5> lossy = {"dwaa", "dwab", "pxr24", "b44", "b44a"};
+  bool hasData = !listCryptomattes(file).empty();
+  for (const PassChannels& pass : listPasses(file)) hasData = hasData || isData(pass);
+  for (const Part& part : file.parts) {
+    if (!hasData || std::find(lossy.begin(), lossy.end(), part.compression) == lossy.end())
+      continue;
+    add(inspection, FindingKind::warning,
+        fmt::format("data passes are packed with {}, which loses bits{}", part.compression,
+                    part.name.empty() ? "" : " in part " + part.name),
+        "render with zip, zips or piz");
+  }
+}
+
+void addPrecisionWarnings(Inspection& inspection, const ImageFile& file) {
+  for (const PassChannels& pass : listPasses(file)) {
+    const bool exact = detail::aliasRank(AovKind::position, pass.pass) >= 0 ||
+                       detail::aliasRank(AovKind::objectIndex, pass.pass) >= 0;
+    if (!exact || typeOf(file, pass.channels) != "half") continue;
+    add(inspection, FindingKind::warning,
+        fmt::format("{} is stored as half float, which keeps 11 bits", pass.pass),
+        "render with 32-bit float");
+  }
+}
+
+void addCryptomattes(Inspection& inspection, const ImageFile& file) {
+  for (const Cryptomatte& found : listCryptomattes(file)) {
+    const Manifest manifest = readManifest(file, found);
+    InspectedCryptomatte shown{found.name, static_cast<int>(found.idChannels.size()), {}};
+    for (const auto& entry : manifest.names) shown.names.push_back(entry.second);
+    for (const std::string& warning : manifest.warnings) {
+      add(inspection, FindingKind::warning, warning,
+          "name objects in full instead of by pattern, or render the manifest into the file");
+    }
+    for (const std::string& channel : found.idChannels) {
+      if (file.findChannel(channel)->type != PixelType::half) continue;
+      add(inspection, FindingKind::error,
+          fmt::format("the id channel {} is stored as half float, which destroys ids", channel),
+          "render it again with 32-bit float");
+      break;
+    }
+    inspection.cryptomattes.push_back(std::move(shown));
+  }
+}
+
+void addMasks(Inspection& inspection, const ImageFile& file, const SidecarLight& light,
+              InspectedLight& shown) {
+  constexpr std::array<std::string_view, 3> arrangements = {"pair", "line", "disc"};
+  if (!light.masks) return;
+  shown.arrangement = arrangements[static_cast<size_t>(light.masks->arrangement)];
+  for (const MaskSample& sample : light.masks->samples) {
+    InspectedMask mask{sample.layer, true};
+    try {
+      requireMaskChannel(file, sample.layer);
+    } catch (const InputError& problem) {
+      mask.found = false;
+      add(inspection, FindingKind::missing, problem.what(), "export the frame again");
+    }
+    shown.masks.push_back(std::move(mask));
+  }
+}
+
+void addLights(Inspection& inspection, const ImageFile& file, const Sidecar& sidecar) {
+  constexpr std::array<std::string_view, 4> types = {"point", "spot", "sun", "area"};
+  for (const SidecarLight& light : sidecar.lights) {
+    InspectedLight shown;
+    shown.name = light.name;
+    shown.type = types[static_cast<size_t>(light.type)];
+    shown.truthLayer = light.truthLayer;
+    addMasks(inspection, file, light, shown);
+    if (light.depthMap) {
+      std::error_code problem;
+      shown.depthMap = light.depthMap->file.string();
+      shown.depthMapFound = std::filesystem::exists(light.depthMap->file, problem);
+      if (!shown.depthMapFound) {
+        add(inspection, FindingKind::missing,
+            fmt::format("the depth map {} of light {} does not exist", shown.depthMap, light.name),
+            "copy it beside the frame, or export the frame again");
+      }
+    }
+    inspection.lights.push_back(std::move(shown));
+  }
+}
+
+// Names from the look win over those of the sidecar.
+AovNames namesWith(AovNames names, const Sidecar& sidecar) {
+  if (names.layer.empty()) names.layer = sidecar.dataLayer;
+  if (names.beautyLayer.empty()) names.beautyLayer = sidecar.beautyLayer;
+  return names;
+}
+
+void addSidecar(Inspection& inspection, const ImageFile& file, const Sidecar& sidecar) {
+  inspection.sidecar = sidecar.path.string();
+  inspection.frame = sidecar.frame;
+  inspection.fps = sidecar.fps;
+  addLights(inspection, file, sidecar);
+  for (const SidecarObject& object : sidecar.objects) {
+    inspection.objects.push_back({object.name, object.index, object.materials});
+  }
+  const Window& display = file.displayWindow;
+  if (sidecar.width == display.width && sidecar.height == display.height) return;
+  add(inspection, FindingKind::warning,
+      fmt::format("the frame's display window is {} x {} pixels, but its JSON says {} x {}",
+                  display.width, display.height, sidecar.width, sidecar.height),
+      "use the JSON that was exported with this frame");
+}
+
+std::optional<Sidecar> trySidecar(Inspection& inspection) {
+  try {
+    auto sidecar = findSidecar(inspection.path);
+    if (!sidecar) {
+      add(inspection, FindingKind::missing,
+          "there is no JSON beside the frame, so lights, camera and objects are not known",
+          "export the frame with the Blender add-on, or give lights and camera in the look");
+    }
+    return sidecar;
+  } catch (const InputError& problem) {
+    add(inspection, FindingKind::error, problem.what(), "export the frame again");
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Inspection inspectFrame(const std::filesystem::path& path, const AovNames& names) {
+  const ImageFile file = openImage(path);
+  Inspection inspection;
+  inspection.path = path;
+  inspection.dataWindow = file.dataWindow;
+  inspection.displayWindow = file.displayWindow;
+  inspection.pixelAspect = file.pixelAspect;
+  inspection.parts = file.parts;
+  inspection.channelCount = static_cast<int>(file.channels.size());
+  const auto sidecar = trySidecar(inspection);
+  addLayers(inspection, file);
+  addAovs(inspection, file, sidecar ? namesWith(names, *sidecar) : names);
+  addMissing(inspection);
+  addCryptomattes(inspection, file);
+  addCodecWarnings(inspection, file);
+  addPrecisionWarnings(inspection, file);
+  if (sidecar) addSidecar(inspection, file, *sidecar);
+  return inspection;
+}
+
+}  // namespace kagefude
