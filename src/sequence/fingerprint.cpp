@@ -73,7 +73,9 @@ Fingerprint& Fingerprint::add(std::string_view label, std::string_view bytes) {
   sha.append(lengths.data(), lengths.size());
   sha.append(label.data(), label.size());
   sha.append(bytes.data(), bytes.size());
-  digest_ = sha.digest();
+  unsigned char hash[20];
+  sha.gethash(hash);
+  digest_ = fmt::format("{:02x}", fmt::join(hash, ""));
   return *this;
 }
 

@@ -3,12 +3,12 @@
 #include <signal.h>
 #include <time.h>
 
+#include <cerrno>
+
 #include "base/temp_file.h"
 
 namespace kagefude {
 namespace {
-
-constexpr auto kLookAround = std::chrono::milliseconds(50);
 
 sigset_t watchedSignals() {
   sigset_t set;
@@ -26,7 +26,7 @@ sigset_t watchedSignals() {
 Interrupts::Interrupts(std::function<void(int)> leave, std::chrono::milliseconds grace)
     : leave_(std::move(leave)), grace_(grace) {
   const sigset_t watched = watchedSignals();
-  pthread_sigmask(SIG_BLOCK, &watched, nullptr);
+  pthread_sigmask(SIG_BLOCK, &watched, &before_);
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
   watcher_ = std::thread([this] { watch(); });
@@ -34,29 +34,29 @@ Interrupts::Interrupts(std::function<void(int)> leave, std::chrono::milliseconds
 
 Interrupts::~Interrupts() {
   finished_ = true;
+  pthread_kill(watcher_.native_handle(), SIGTERM);  // only wakes the watcher
   watcher_.join();
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-/// The next signal, or 0 when the time is over or the work has ended. The wait is cut into short
-/// ones so that a run that ends by itself is not held up.
-int Interrupts::waitForSignal(std::chrono::milliseconds most) {
-  const auto end = std::chrono::steady_clock::now() + most;
+/// The next signal, or 0 when the time is over or the work has ended.
+int Interrupts::waitForSignal(const timespec* most) {
   const sigset_t watched = watchedSignals();
-  const timespec shortWait{0, std::chrono::nanoseconds(kLookAround).count()};
-  while (!finished_ && std::chrono::steady_clock::now() < end) {
-    const int signal = sigtimedwait(&watched, nullptr, &shortWait);
-    if (signal > 0) return signal;
-  }
-  return 0;
+  int signal = 0;
+  do {
+    signal = most ? sigtimedwait(&watched, nullptr, most) : sigwaitinfo(&watched, nullptr);
+  } while (signal < 0 && errno == EINTR);
+  return finished_ || signal < 0 ? 0 : signal;
 }
 
 void Interrupts::watch() {
-  int first = 0;
-  while (first == 0 && !finished_) first = waitForSignal(std::chrono::hours(1));
+  const int first = waitForSignal(nullptr);
   if (first == 0) return;
   exitCode_ = 128 + first;
   source_.request_stop();
-  waitForSignal(grace_);
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(grace_);
+  const timespec grace{seconds.count(), std::chrono::nanoseconds(grace_ - seconds).count()};
+  waitForSignal(&grace);
   if (finished_) return;
   removeLiveTempFiles();
   leave_(128 + first);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <signal.h>
+#include <time.h>
+
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -32,10 +35,11 @@ class Interrupts {
 
  private:
   void watch();
-  int waitForSignal(std::chrono::milliseconds most);
+  int waitForSignal(const timespec* most);
 
   std::function<void(int)> leave_;
   std::chrono::milliseconds grace_;
+  sigset_t before_{};
   std::stop_source source_;
   std::atomic<int> exitCode_{0};
   std::atomic<bool> finished_{false};

@@ -159,7 +159,7 @@ class BarSink : public CountingSink {
     const int room = std::min(width_ - 3 - static_cast<int>(text.size()), 32);
     if (room >= 4) {
       const int full = total_ == 0 ? room : static_cast<int>(finished_ * room / total_);
-      text = "[" + std::string(full, '#') + std::string(room - full, '.') + "]" + text;
+      text = fmt::format("[{:#<{}}{:.<{}}]{}", "", full, "", room - full, text);
     }
     erase();
     out_ << text.substr(0, static_cast<size_t>(width_ - 1)) << std::flush;

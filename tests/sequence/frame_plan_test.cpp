@@ -1,0 +1,186 @@
+#include "sequence/frame_plan.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "test_folder.h"
+
+namespace kagefude {
+namespace {
+
+class FramePlan : public testing::Test {
+ protected:
+  void make(const std::string& name, const std::vector<int>& frames, const char* view = "") {
+    for (const int frame : frames) folder.write(FramePattern(name).path(frame, view).string());
+  }
+  PlanRequest request(const std::string& input, const std::string& output) const {
+    PlanRequest result;
+    result.inputs.emplace_back(folder / input);
+    result.outputs.emplace_back(folder / output);
+    return result;
+  }
+  template <class ErrorType>
+  static void expectError(const PlanRequest& request, const std::vector<std::string>& parts) {
+    const std::string message = messageOf<ErrorType>([&] { planFrames(request); });
+    EXPECT_FALSE(message.empty()) << "no such error was thrown";
+    for (const std::string& part : parts)
+      EXPECT_NE(message.find(part), std::string::npos) << part << " is not in: " << message;
+  }
+  static std::vector<int> frames(const std::vector<FrameJob>& jobs) {
+    std::vector<int> result;
+    for (const FrameJob& job : jobs) result.push_back(job.frame);
+    return result;
+  }
+
+  TestFolder folder;
+};
+
+TEST_F(FramePlan, ScansWithoutFrames) {
+  make("in.####.exr", {3, 1, 2});
+  const auto jobs = planFrames(request("in.####.exr", "out.####.exr"));
+  EXPECT_EQ(frames(jobs), (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(jobs[2].inputs[0].string(), folder / "in.0003.exr");
+  EXPECT_EQ(jobs[2].outputs[0].string(), folder / "out.0003.exr");
+  EXPECT_EQ(jobs[2].name(), "frame 3");
+}
+
+TEST_F(FramePlan, TakesFramesInTheOrderAsked) {
+  make("in.####.exr", {1, 2, 3});
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  asked.frames = {3, 1};
+  EXPECT_EQ(frames(planFrames(asked)), (std::vector<int>{3, 1}));
+}
+
+TEST_F(FramePlan, NamesMissingFramesCompactly) {
+  make("in.####.exr", {1, 2, 6});
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  asked.frames = parseFrames("1-6");
+  expectError<InputError>(asked, {"lacks 3 of 6 frames (1-6): 3-5", "it has 1-2,6"});
+}
+
+TEST_F(FramePlan, GapsInAScannedSequenceAreMissingFrames) {
+  make("in.####.exr", {1, 2, 4});
+  expectError<InputError>(request("in.####.exr", "out.####.exr"), {"lacks 1 of 4 frames", ": 3;"});
+  make("twos.####.exr", {1, 3, 5});
+  EXPECT_EQ(planFrames(request("twos.####.exr", "out.####.exr")).size(), 3u);
+}
+
+TEST_F(FramePlan, FarApartFramesAreNotEnumerated) {
+  make("in.####.exr", {1, 2, 2000000000});
+  expectError<InputError>(request("in.####.exr", "out.####.exr"), {"too far apart", "--frames"});
+}
+
+TEST_F(FramePlan, MissingFramesBecomeBadFramesWhenSkipping) {
+  make("in.####.exr", {1, 3});
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  asked.frames = parseFrames("1-3");
+  asked.skipBadFrames = true;
+  const auto jobs = planFrames(asked);
+  ASSERT_EQ(jobs.size(), 3u);
+  EXPECT_FALSE(jobs[0].missing);
+  EXPECT_EQ(jobs[1].missing->string(), folder / "in.0002.exr");
+}
+
+TEST_F(FramePlan, CountsThatDifferNameBothSides) {
+  make("in.####.exr", {1, 2, 3});
+  make("bg.####.exr", {1, 2});
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  asked.inputs.emplace_back(folder / "bg.####.exr");
+  expectError<InputError>(asked,
+                          {"in.####.exr has 3 frames (1-3)", "bg.####.exr has 2 frames (1-2)"});
+}
+
+TEST_F(FramePlan, OneFileServesEveryFrame) {
+  make("in.####.exr", {1, 2, 3});
+  folder.write("bg.exr");
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  asked.inputs.emplace_back(folder / "bg.exr");
+  const auto jobs = planFrames(asked);
+  ASSERT_EQ(jobs.size(), 3u);
+  EXPECT_EQ(jobs[2].inputs[1].string(), folder / "bg.exr");
+}
+
+TEST_F(FramePlan, NothingFits) {
+  folder.write("shot_0001.exr");
+  expectError<InputError>(request("in.####.exr", "out.####.exr"),
+                          {"no file fits", "in.####.exr", "shot_0001.exr"});
+  expectError<InputError>(request("none/in.####.exr", "out.####.exr"), {"does not exist"});
+  expectError<InputError>(request("in.exr", "out.exr"), {"in.exr does not exist"});
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  asked.frames = {1, 2};
+  expectError<InputError>(asked, {"no file fits"});
+}
+
+TEST_F(FramePlan, OutputWithoutAPlaceForSeveralFrames) {
+  make("in.####.exr", {1, 2});
+  expectError<UsageError>(request("in.####.exr", "out.exr"),
+                          {"in.####.exr stands for 2 frames (1-2)", "out.exr has no place"});
+  PlanRequest asked = request("in.####.exr", "out.exr");
+  asked.frames = {2};
+  EXPECT_EQ(planFrames(asked).size(), 1u);
+}
+
+TEST_F(FramePlan, OneInputForSeveralFrames) {
+  folder.write("in.exr");
+  PlanRequest asked = request("in.exr", "out.####.exr");
+  asked.frames = {1, 2};
+  expectError<UsageError>(asked, {"in.exr has no place for the frame", "2 frames"});
+}
+
+TEST_F(FramePlan, SingleFileTakesItsNumberFromItsName) {
+  folder.write("in.0012.exr");
+  const auto jobs = planFrames(request("in.0012.exr", "out.####.exr"));
+  ASSERT_EQ(jobs.size(), 1u);
+  EXPECT_EQ(jobs[0].frame, 12);
+  EXPECT_EQ(jobs[0].outputs[0].string(), folder / "out.0012.exr");
+}
+
+TEST_F(FramePlan, OutputsNeverOverwriteInputs) {
+  make("in.####.exr", {1, 2});
+  expectError<UsageError>(request("in.####.exr", "in.####.exr"), {"would overwrite an input"});
+  expectError<UsageError>(request("in.####.exr", "./in.%04d.exr"), {"would overwrite an input"});
+  std::filesystem::create_symlink(folder / "in.0001.exr", folder / "link.0001.exr");
+  expectError<UsageError>(request("in.####.exr", "link.####.exr"), {"would overwrite an input"});
+}
+
+TEST_F(FramePlan, TwoOutputsOfOneNameAreRefused) {
+  make("in.####.exr", {1, 2});
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  asked.outputs.emplace_back(folder / "out.%04d.exr");
+  expectError<UsageError>(asked, {"two outputs have one name"});
+}
+
+TEST_F(FramePlan, ViewsFollowEachOther) {
+  make("in.%V.####.exr", {1, 2}, "left");
+  make("in.%V.####.exr", {1, 2}, "right");
+  const auto jobs = planFrames(request("in.%V.####.exr", "out.%v.####.exr"));
+  ASSERT_EQ(jobs.size(), 4u);
+  EXPECT_EQ(jobs[1].name(), "frame 1 right");
+  EXPECT_EQ(jobs[1].outputs[0].string(), folder / "out.r.0001.exr");
+  expectError<UsageError>(request("in.%V.####.exr", "out.####.exr"),
+                          {"left and right", "no place for the view"});
+}
+
+TEST_F(FramePlan, ViewsWithDifferentFramesNameBothSides) {
+  make("in.%V.####.exr", {1, 2}, "left");
+  make("in.%V.####.exr", {1}, "right");
+  expectError<InputError>(request("in.%V.####.exr", "out.%V.####.exr"),
+                          {"(left) has 2 frames (1-2)", "(right) has 1 frame (1)"});
+}
+
+TEST_F(FramePlan, ChunksTogetherAreTheWhole) {
+  make("in.####.exr", parseFrames("1-24"));
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  std::vector<int> together;
+  for (size_t i = 1; i <= 5; ++i) {
+    asked.chunk = {i, 5};
+    for (const FrameJob& job : planFrames(asked)) together.push_back(job.frame);
+  }
+  EXPECT_EQ(together, parseFrames("1-24"));
+  asked.frames = {7};
+  asked.chunk = {2, 5};
+  EXPECT_TRUE(planFrames(asked).empty());
+}
+
+}  // namespace
+}  // namespace kagefude
