@@ -60,9 +60,9 @@ class SharpCameras:
 
 
 def visible_points(scene, depsgraph, view):
-    """{(column, row): point} of the surfaces that the camera sees on a coarse grid of rays."""
+    """Surface points that the camera sees, on a coarse grid of rays over the whole frame."""
     world_from_clip = view.clip_from_world.inverted()
-    points = {}
+    points = []
     for row in range(PROBE_ROWS + 1):
         for column in range(PROBE_COLUMNS + 1):
             x, y = 2.0 * column / PROBE_COLUMNS - 1.0, 2.0 * row / PROBE_ROWS - 1.0
@@ -71,20 +71,17 @@ def visible_points(scene, depsgraph, view):
             hit, place, *_ = scene.ray_cast(depsgraph, start, (end - start).normalized(),
                                             distance=(end - start).length)
             if hit:
-                points[column, row] = tuple(place)
+                points.append(tuple(place))
     return points
 
 
 def hidden_points(scene, depsgraph, points, state, reach):
-    """The visible points that `state`'s light does not reach, and their neighbours on the grid.
+    """Those of the points that `state`'s light does not reach.
 
     `reach` is how far back along a sun's light a blocker may be.
     """
-    hidden = {place for place, point in points.items()
-              if _is_hidden(scene, depsgraph, Vector(point), state, reach)}
-    near = {(column + right, row + up) for column, row in hidden
-            for right in (-1, 0, 1) for up in (-1, 0, 1)}
-    return [points[place] for place in sorted(near) if place in points]
+    return [point for point in points
+            if _is_hidden(scene, depsgraph, Vector(point), state, reach)]
 
 
 def _is_hidden(scene, depsgraph, point, state, reach):

@@ -60,7 +60,7 @@ def plan_view(state, scene, depsgraph, camera, things):
     reach = 2.0 * bounding_sphere(casters).radius
     hidden = hidden_points(scene, depsgraph, visible, state, reach)
     framed = hidden + corners_of(standing_things(things))
-    seen = list(visible.values()) or casters
+    seen = visible or casters
     if state.kind == "sun":
         return orthographic_view(state.direction, framed, seen, casters)
     cone = (state.direction, state.cone[0]) if state.cone else None

@@ -14,7 +14,7 @@ from . import vectors
 
 WIDEST = math.radians(150.0)   # beyond that a flat map has no texels left for the middle
 NARROWEST = math.radians(0.5)
-MARGIN = 1.06                  # thin things between the probing rays
+MARGIN = 1.12                  # the penumbra, and what the probing rays missed
 
 
 @dataclass
