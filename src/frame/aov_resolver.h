@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/parameter.h"
 #include "frame/image_file.h"
 
 namespace kagefude {
@@ -37,6 +38,29 @@ struct AovNames {
 
   const std::string& of(AovKind kind) const;
 };
+
+inline constexpr Parameter aovNamesParameters[] = {
+    plain<&AovNames::layer>("layer",
+                            "layer of the data passes; empty: found, or as the sidecar says"),
+    plain<&AovNames::beautyLayer>("beauty_layer",
+                                  "layer of the beauty pass; empty: found, or as the sidecar says"),
+    plain<&AovNames::view>("view", "view of a multi-view file, such as left"),
+    plain<&AovNames::position>("position", "world position pass"),
+    plain<&AovNames::normal>("normal", "world normal pass"),
+    plain<&AovNames::depth>("depth", "camera depth pass"),
+    plain<&AovNames::objectIndex>("object_index", "object index pass"),
+    plain<&AovNames::materialIndex>("material_index", "material index pass"),
+    plain<&AovNames::vector>("vector", "motion vector pass"),
+    plain<&AovNames::albedo>("albedo", "diffuse colour pass"),
+    plain<&AovNames::beauty>("beauty", "rendered picture"),
+    plain<&AovNames::shadow>("shadow", "visibility pass made by the renderer"),
+    plain<&AovNames::cryptoObject>("crypto_object", "Cryptomatte of objects"),
+    plain<&AovNames::cryptoMaterial>("crypto_material", "Cryptomatte of materials"),
+    plain<&AovNames::surface>("surface", "surface ids made elsewhere; taken instead of objects"),
+};
+inline constexpr ParameterTable aovNamesTable{
+    "frame", "names the passes of frames from other renderers; empty names are found", "kagefude",
+    aovNamesParameters};
 
 /// A pass that was found. `name` is layer.pass. Channels are in the order x y z w, or r g b a; for
 /// Cryptomatte: id, coverage, id, coverage ... by rank.

@@ -88,8 +88,8 @@ TEST_F(LookFile, ErrorsNameFileLineAndTheNearestKey) {
   EXPECT_EQ(errorOf("[pair]\nsearch = \"grit\"\n"),
             "a.toml:2: pair.search cannot be \"grit\" (did you mean grid?); it is one of exact and "
             "grid");
-  EXPECT_EQ(errorOf("[smooth]\nh = 1.5\n").substr(0, 40),
-            std::string("a.toml:2: smooth.h wants a whole number").substr(0, 40));
+  EXPECT_EQ(errorOf("[smooth]\nh = 1.5\n").substr(0, 39),
+            "a.toml:2: smooth.h wants a whole number");
   EXPECT_NE(errorOf("[smooth]\nh = 99999\n").find("outside its range"), std::string::npos);
   EXPECT_NE(errorOf("[smooth]\nh = nan\n").find("outside its range"), std::string::npos);
   EXPECT_NE(errorOf("[smooth\n").find("a.toml:1"), std::string::npos);

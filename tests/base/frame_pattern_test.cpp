@@ -1,4 +1,4 @@
-#include "sequence/frame_pattern.h"
+#include "base/frame_pattern.h"
 
 #include <gtest/gtest.h>
 
