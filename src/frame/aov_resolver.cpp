@@ -207,11 +207,11 @@ std::string describeLayers(const std::vector<PassChannels>& passes, const std::s
     layer = layers.front();
   }
   std::vector<std::string> known;
-  for (const PassChannels& pass : passes) known.push_back(fullName(pass));
-  const std::string wanted = joined(layer, std::string(aovName(kind)));
-  throw InputError(fmt::format(
-      "{} has no {} pass{} ({}); turn it on in the exporter or name it with {}", file.path.string(),
-      aovName(kind), didYouMean(wanted, known), describeLayers(passes, layer), aovKey(kind)));
+  for (const PassChannels& pass : passes) known.push_back(pass.pass);
+  throw InputError(
+      fmt::format("{} has no {} pass{} ({}); turn it on in the exporter or name it with {}",
+                  file.path.string(), aovName(kind), didYouMean(aovName(kind), known),
+                  describeLayers(passes, layer), aovKey(kind)));
 }
 
 }  // namespace

@@ -1,0 +1,203 @@
+#include "frame/sidecar.h"
+
+#include <nlohmann/json.hpp>
+
+#include "frame/cryptomatte.h"
+#include "frame_fixtures.h"
+
+namespace kagefude {
+namespace {
+
+using namespace testing;
+using nlohmann::json;
+
+json identity() { return {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}; }
+
+json example() {
+  json sample = {{"layer", "mask.Key.0"}, {"position", {0, 0, 4}}, {"uv", {1, 0}}};
+  json other = {{"layer", "mask.Key.1"}, {"position", {0, 0, 5}}, {"uv", {-1, 0}}};
+  json light = {{"name", "Key"},
+                {"type", "spot"},
+                {"position", {1, 2, 3}},
+                {"direction", {0, 0, -2}},
+                {"radius", 0.5},
+                {"color", {1, 0.5, 0.25}},
+                {"energy", 100},
+                {"cone", {{"angle", 1.0}, {"blend", 0.2}}},
+                {"subject", {{"center", {0, 0, 0}}, {"radius", 2}}},
+                {"masks", {{"arrangement", "pair"}, {"offset", 0.3}, {"samples", {sample, other}}}},
+                {"axes", {{"u", {1, 0, 0}}, {"v", {0, 1, 0}}}},
+                {"depth_map",
+                 {{"file", "shot.Key.depth.0012.exr"},
+                  {"channel", "Depth.Z"},
+                  {"resolution", {512, 512}},
+                  {"projection", "perspective"},
+                  {"light_from_world", identity()},
+                  {"clip_from_light", identity()}}}};
+  json object = {{"name", "Cup"},
+                 {"index", 3},
+                 {"crypto", "1a2b3c4d"},
+                 {"world_from_object", identity()},
+                 {"bounds", {{"min", {-1, -1, 0}}, {"max", {1, 1, 2}}}},
+                 {"reference_point", {0, 0, 1}},
+                 {"materials", {"Clay"}},
+                 {"flat", false}};
+  return {{"kagefude", 1},
+          {"frame", 12},
+          {"fps", 24.0},
+          {"image", "shot.0012.exr"},
+          {"resolution", {960, 540}},
+          {"layers", {{"data", "data"}, {"beauty", "beauty"}}},
+          {"camera",
+           {{"type", "perspective"},
+            {"position", {0, -5, 1}},
+            {"direction", {0, 1, 0}},
+            {"camera_from_world", identity()},
+            {"clip_from_camera", identity()}}},
+          {"lights", {light}},
+          {"objects", {object}},
+          {"materials", {{{"name", "Clay"}, {"index", 1}}}},
+          {"something new", true}};
+}
+
+class SidecarTest : public ::testing::Test {
+ protected:
+  Sidecar read(const json& text) {
+    writeText(folder_ / "shot.0012.json", text.dump());
+    return readSidecar(folder_ / "shot.0012.json");
+  }
+  // The message for the example with the value at a JSON pointer replaced.
+  std::string messageWith(const std::string& pointer, const json& value) {
+    json changed = example();
+    changed[json::json_pointer(pointer)] = value;
+    return messageOf<InputError>([&] { read(changed); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(SidecarTest, ReadsEverything) {
+  const Sidecar sidecar = read(example());
+  EXPECT_EQ(sidecar.frame, 12);
+  EXPECT_EQ(sidecar.width, 960);
+  EXPECT_EQ(sidecar.dataLayer, "data");
+  ASSERT_NE(sidecar.findLight("Key"), nullptr);
+  const SidecarLight& light = *sidecar.findLight("Key");
+  EXPECT_EQ(light.type, LightType::spot);
+  EXPECT_EQ(light.direction, V3d(0, 0, -1)) << "made unit";
+  EXPECT_EQ(light.coneBlend, 0.2);
+  EXPECT_EQ(light.subjectRadius, 2);
+  ASSERT_EQ(light.masks->samples.size(), 2u);
+  EXPECT_EQ(light.masks->samples[1].u, -1);
+  EXPECT_EQ(light.depthMap->file, folder_ / "shot.Key.depth.0012.exr");
+  EXPECT_EQ(sidecar.findObject(3u)->name, "Cup");
+  EXPECT_EQ(sidecar.findObject("Cup")->cryptoId, 0x1a2b3c4du);
+  EXPECT_EQ(sidecar.materials[0].cryptoId, cryptomatteId("Clay")) << "from the name";
+  EXPECT_EQ(sidecar.findObject("cup"), nullptr);
+}
+
+TEST_F(SidecarTest, StandsBesideItsImage) {
+  EXPECT_FALSE(findSidecar(folder_ / "shot.0012.exr"));
+  read(example());
+  EXPECT_EQ(findSidecar(folder_ / "shot.0012.exr")->frame, 12);
+  EXPECT_FALSE(findSidecar(folder_ / "shot.0013.exr"));
+}
+
+TEST_F(SidecarTest, ComplaintsNameFileAndPlace) {
+  expectContains(
+      messageWith("/lights/0/masks/samples/1/position", {1, 2}),
+      "shot.0012.json: lights[0].masks.samples[1].position should be a list of 3, but is "
+      "a list of 2");
+  expectContains(messageWith("/lights/0/type", "spto"),
+                 "lights[0].type should be one of point, spot, sun and area, but is \"spto\"");
+  expectContains(messageWith("/camera/camera_from_world/2", json::array()),
+                 "camera.camera_from_world[2] should be a list of 4");
+  expectContains(messageWith("/lights/0/radius", -1), "lights[0].radius should be a number from 0");
+  expectContains(messageWith("/frame", 1.5), "frame should be a whole number");
+  expectContains(messageWith("/objects/0/crypto", "xyz"), "should be eight hexadecimal digits");
+  expectContains(messageWith("/lights/0/direction", {0, 0, 0}), "should be a direction");
+  expectContains(messageWith("/lights", 7), "lights should be a list");
+}
+
+TEST_F(SidecarTest, MissingKeysNameTheNearest) {
+  json changed = example();
+  changed["lights"][0].erase("radius");
+  changed["lights"][0]["raduis"] = 1;
+  expectContains(messageOf<InputError>([&] { read(changed); }),
+                 "lights[0].radius is missing (did you mean raduis?)");
+}
+
+TEST_F(SidecarTest, OtherVersionsAreRefusedBeforeAllElse) {
+  expectContains(messageOf<InputError>([&] {
+                   read({{"kagefude", 2}});
+                 }),
+                 "format version 2, but this program reads version 1; use a newer kagefude");
+  expectContains(messageOf<InputError>([&] { read({{"frame", 2}}); }), "kagefude is missing");
+  expectContains(messageOf<InputError>([&] { read(json::array()); }),
+                 "the file should be an object");
+}
+
+TEST_F(SidecarTest, PathsStayInTheFolder) {
+  for (const char* path : {"../a.exr", "/etc/passwd", "a/../../b.exr", ""}) {
+    EXPECT_FALSE(messageWith("/lights/0/depth_map/file", path).empty()) << path;
+  }
+  json inside = example();
+  inside["lights"][0]["depth_map"]["file"] = "maps/a.exr";
+  EXPECT_NO_THROW(read(inside));
+}
+
+TEST_F(SidecarTest, ArrangementsHaveTheirNumberOfSamples) {
+  expectContains(messageWith("/lights/0/masks/arrangement", "disc"),
+                 "lights[0].masks.samples should be a list of 4 to 256, but is a list of 2");
+  json three = example();
+  three["lights"][0]["masks"]["samples"].push_back(three["lights"][0]["masks"]["samples"][0]);
+  expectContains(messageOf<InputError>([&] { read(three); }), "should be a list of 2");
+}
+
+TEST_F(SidecarTest, NamesComeOnce) {
+  json twice = example();
+  twice["objects"].push_back(twice["objects"][0]);
+  expectContains(messageOf<InputError>([&] { read(twice); }), "\"Cup\" comes twice");
+}
+
+TEST_F(SidecarTest, SunsMayGiveDirectionsAlone) {
+  json sun = example();
+  for (json& sample : sun["lights"][0]["masks"]["samples"]) {
+    sample.erase("position");
+    sample["direction"] = {0, 1, -1};
+  }
+  sun["lights"][0]["type"] = "sun";
+  const Sidecar sidecar = read(sun);
+  EXPECT_NEAR(sidecar.lights[0].masks->samples[0].direction->z, -0.70710678, 1e-8);
+}
+
+TEST_F(SidecarTest, BrokenJsonIsAnInputError) {
+  for (const std::string text : {"", "{", "{\"kagefude\": 1e999}", "\xff", "[[[[[["}) {
+    writeText(folder_ / "bad.json", text);
+    expectContains(messageOf<InputError>([&] { readSidecar(folder_ / "bad.json"); }), "bad.json");
+  }
+  writeText(folder_ / "deep.json", std::string(2'000'000, '['));
+  EXPECT_THROW(readSidecar(folder_ / "deep.json"), InputError);
+}
+
+// Every value of the example replaced by every kind of wrong one: refused or read, never a crash.
+TEST_F(SidecarTest, AnyWrongValueIsAnInputErrorAtMost) {
+  const json flat = example().flatten();
+  const std::vector<json> wrong = {nullptr, -1, 1e308, "text", json::array(), json::object(), true};
+  int refused = 0;
+  for (const auto& [pointer, value] : flat.items()) {
+    for (const json& replacement : wrong) {
+      json changed = example();
+      changed[json::json_pointer(pointer)] = replacement;
+      try {
+        read(changed);
+      } catch (const InputError& error) {
+        expectContains(error.what(), "shot.0012.json");
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 500);
+}
+
+}  // namespace
+}  // namespace kagefude
