@@ -9,6 +9,7 @@ namespace kagefude {
 /// A surface point as a shadow map sees it, with the tangent plane's depth around it.
 struct MapReceiver {
   float u = 0, v = 0;        ///< place on the map, texels; texel (i, j) covers [i, i+1) x [j, j+1)
+  bool turnedAway = false;   ///< the normal points away from the light
   float depth = 0;           ///< V, planar depth from the light, world units
   float texelsPerUnit = 0;   ///< texels per world unit across, at this depth
   bool perspective = false;  ///< then 1/depth is linear over the map, else depth is

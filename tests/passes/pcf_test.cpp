@@ -158,6 +158,34 @@ TEST(Pcf, OutsideTheMapBehindTheLightAndBackgroundAreLit) {
   EXPECT_EQ(r.visibility(map)(3, 0), 1.0f);
 }
 
+TEST(Pcf, ASurfaceTurnedAwayIsHidden) {
+  const Floats depth(8, 8, 100.0f);
+  Receivers r(1, 0.1f, 0);
+  for (const Transform& clip : {perspective(), orthographic(9)}) {
+    const ShadowMap map{depth, lightFromWorld(), clip};
+    r.normal.set(0, 0, V3f(0, 0, -1));
+    EXPECT_EQ(r.visibility(map)(0, 0), 0.0f);
+    r.normal.set(0, 0, V3f(0, 0, 0));
+    EXPECT_EQ(r.visibility(map)(0, 0), 1.0f) << "an unknown normal turns nowhere";
+  }
+}
+
+TEST(Pcf, SpreadBiasLightsHollows) {
+  // Around the pixel the surface rises by a fifth of the distance.
+  Floats depth(65, 65);
+  for (int y = 0; y < 65; ++y)
+    for (int x = 0; x < 65; ++x) depth(x, y) = 10 - 0.2f * std::hypot(x - 32.0f, y - 32.0f);
+  const ShadowMap map{depth, lightFromWorld(), orthographic(32.5)};
+  Receivers r(1, 1, 0);
+  r.position.set(0, 0, V3f(0, 0, 0));
+  PcfParams params;
+  params.radius = 10;
+  params.spread_bias = 0;
+  EXPECT_LT(r.visibility(map, params)(0, 0), 0.5f);
+  params.spread_bias = 0.25f;
+  EXPECT_EQ(r.visibility(map, params)(0, 0), 1.0f);
+}
+
 TEST(Pcf, NanDepthIsLit) {
   const Floats depth(8, 8, std::numeric_limits<float>::quiet_NaN());
   const ShadowMap map{depth, lightFromWorld(), perspective()};
