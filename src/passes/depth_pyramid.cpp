@@ -20,8 +20,8 @@ DepthPyramid::DepthPyramid(View<const float> depth) : depth_(depth) {
         for (int x = 0; x < width; ++x) {
           DepthRange all = at(below, 2 * x, 2 * y);
           for (int i = 1; i < 4; ++i) {
-            const DepthRange part = at(below, std::min(2 * x + (i & 1), lastX),
-                                       std::min(2 * y + (i >> 1), lastY));
+            const DepthRange part =
+                at(below, std::min(2 * x + (i & 1), lastX), std::min(2 * y + (i >> 1), lastY));
             all = {std::min(all.nearest, part.nearest), std::max(all.farthest, part.farthest)};
           }
           nearest(x, y) = all.nearest;

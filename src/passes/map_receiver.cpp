@@ -77,11 +77,12 @@ std::optional<MapReceiver> receiveOnMap(const ShadowMap& map, const V3f& positio
   r.u = static_cast<float>(place.u);
   r.v = static_cast<float>(place.v);
   r.depth = static_cast<float>(-p.z);
-  r.texelsPerUnit =
-      static_cast<float>(0.5 * map.depth.width * std::fabs(m[0][0]) / place.w);
+  r.texelsPerUnit = static_cast<float>(0.5 * map.depth.width * std::fabs(m[0][0]) / place.w);
   r.base = static_cast<float>(baseOf(r, -p.z));
   r.limit = steepest / r.texelsPerUnit;
-  findSlope(map, p, map.lightFromWorld.direction(V3d(normal)), r);
+  const V3d n = map.lightFromWorld.direction(V3d(normal));
+  r.turnedAway = (r.perspective ? -n.dot(p) : n.z) < 0;
+  if (!r.turnedAway) findSlope(map, p, n, r);
   return r;
 }
 

@@ -22,8 +22,9 @@ constexpr uint64_t smallBox = 1 << 16;
 void requireSearchable(const SiteSearch& s) {
   const int width = s.kinds.width, height = s.kinds.height;
   if (width > longestSide || height > longestSide)
-    throw InputError(fmt::format("a frame of {}x{} pixels is too large to search; at most {} a side",
-                                 width, height, longestSide));
+    throw InputError(
+        fmt::format("a frame of {}x{} pixels is too large to search; at most {} a side", width,
+                    height, longestSide));
   requireSize("the plane of wanted pixels", s.wantedKinds, width, height);
   if (!s.labels.empty()) requireSize("the label plane", s.labels, width, height);
 }
@@ -117,9 +118,8 @@ void findNearestSites(const SiteSearch& search, const std::vector<LabelBox>& box
   }
   // Large boxes one after the other, so that their scratch is never held twice.
   for (const LabelBox& box : large) detail::searchBox(search, box, squared, index);
-  tbb::parallel_for(size_t{0}, small.size(), [&](size_t i) {
-    detail::searchBox(search, small[i], squared, index);
-  });
+  tbb::parallel_for(size_t{0}, small.size(),
+                    [&](size_t i) { detail::searchBox(search, small[i], squared, index); });
   if (!thin.empty()) detail::searchLists(search, thin, squared, index);
 }
 

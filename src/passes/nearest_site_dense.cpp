@@ -8,9 +8,9 @@
 namespace kagefude::detail {
 namespace {
 
-constexpr int16_t noRow = 32767;   ///< no site of the label in this column
+constexpr int16_t noRow = 32767;     ///< no site of the label in this column
 constexpr uint16_t farAway = 32767;  ///< squared row distance of a site that is out of reach
-constexpr int reach = 180;         ///< reach² + farAway still fits 16 bits
+constexpr int reach = 180;           ///< reach² + farAway still fits 16 bits
 constexpr int block = 32;
 constexpr int stripColumns = 64;
 using Lanes = uint16_t __attribute__((vector_size(2 * block)));
@@ -39,7 +39,8 @@ KAGEFUDE_CLONES void columnPhase(const Strip& s) {
     for (int i = 0; i < s.columns; ++i) site[i] = kind[i] == s.siteKind;
     if (s.labels) {
       const uint32_t* const label = s.labels + y * s.stride;
-      for (int i = 0; i < s.columns; ++i) site[i] = static_cast<int16_t>(site[i] & (label[i] == s.label));
+      for (int i = 0; i < s.columns; ++i)
+        site[i] = static_cast<int16_t>(site[i] & (label[i] == s.label));
     }
     for (int i = 0; i < s.columns; ++i) {
       const int16_t next = static_cast<int16_t>(run[i] + (run[i] != noRow));

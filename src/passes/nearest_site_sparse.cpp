@@ -48,8 +48,9 @@ Lists collect(View<const uint8_t> kinds, uint8_t kind, View<const uint32_t> labe
   for (size_t slot = 0; slot < slots.size(); ++slot) lists.first[slot + 1] += lists.first[slot];
   lists.places.resize(lists.first.back());
   std::vector<size_t> next(lists.first.begin(), lists.first.end() - 1);
-  visitKind(kinds, kind, labels, slots,
-            [&](size_t slot, int x, int y) { lists.places[next[slot]++] = {x, y}; });
+  visitKind(kinds, kind, labels, slots, [&](size_t slot, int x, int y) {
+    lists.places[next[slot]++] = {x, y};
+  });
   return lists;
 }
 
@@ -124,9 +125,9 @@ void searchLists(const SiteSearch& search, std::span<const LabelBox> boxes, View
       const SiteRows::Nearest found = rows.nearest(p);
       squared(p.x, p.y) = found.squared;
       if (!index.empty())
-        index(p.x, p.y) = static_cast<uint32_t>(found.site.y) *
-                              static_cast<uint32_t>(squared.width) +
-                          static_cast<uint32_t>(found.site.x);
+        index(p.x, p.y) =
+            static_cast<uint32_t>(found.site.y) * static_cast<uint32_t>(squared.width) +
+            static_cast<uint32_t>(found.site.x);
     }
   });
 }

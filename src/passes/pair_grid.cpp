@@ -39,8 +39,8 @@ PairGrid::Corners PairGrid::cornersAt(int x, int y) const {
   for (int i = 0; i < 4; ++i) {
     const bool right = i & 1, lower = i & 2;
     const int cx = right ? across.high : across.low, cy = lower ? down.high : down.low;
-    const float weight = (right ? across.share : 1.0f - across.share) *
-                         (lower ? down.share : 1.0f - down.share);
+    const float weight =
+        (right ? across.share : 1.0f - across.share) * (lower ? down.share : 1.0f - down.share);
     corners.corner[i] = {cx, cy, sameLabel(x, y, cx, cy) ? weight : 0.0f};
   }
   return corners;

@@ -45,8 +45,8 @@ class Pcf {
   float at(int x, int y, const V3f& position, const V3f& normal) const {
     const std::optional<MapReceiver> r = receiveOnMap(map_, position, normal);
     if (!r) return 1.0f;
-    const float radius =
-        std::min(params_.radius + params_.size * r->texelsPerUnit, largestRadius);
+    if (r->turnedAway) return 0.0f;
+    const float radius = std::min(params_.radius + params_.size * r->texelsPerUnit, largestRadius);
     const float bias = params_.bias / r->texelsPerUnit + 2e-6f * std::fabs(r->depth);
     if (pyramid_) {
       const std::optional<float> settled = settle(*r, radius, bias);
@@ -68,7 +68,8 @@ class Pcf {
     const MapReceiver::Bounds plane = r.planeDepthBounds(reach, params_.slope_bias);
     if (plane.high - bias <= stored.nearest) return 1.0f;
     const bool inside = x0 >= 0 && y0 >= 0 && x1 < depth.width && y1 < depth.height;
-    if (inside && plane.low - bias > stored.farthest) return 0.0f;
+    const float widest = 1.4143f * reach * params_.spread_bias / r.texelsPerUnit;
+    if (inside && plane.low - bias - widest > stored.farthest) return 0.0f;
     return std::nullopt;
   }
 
@@ -84,9 +85,10 @@ class Pcf {
         ++lit;
         continue;
       }
-      const float plane =
-          r.planeDepth(tu + 0.5f - r.u, tv + 0.5f - r.v, params_.slope_bias);
-      lit += !(depth(static_cast<int>(tu), static_cast<int>(tv)) < plane - bias);
+      const float plane = r.planeDepth(tu + 0.5f - r.u, tv + 0.5f - r.v, params_.slope_bias);
+      const float away = std::fabs(tu + 0.5f - r.u) + std::fabs(tv + 0.5f - r.v);
+      const float allowed = bias + away * params_.spread_bias / r.texelsPerUnit;
+      lit += !(depth(static_cast<int>(tu), static_cast<int>(tv)) < plane - allowed);
     }
     return static_cast<float>(lit) / static_cast<float>(points_.size());
   }
@@ -97,15 +99,15 @@ class Pcf {
   std::vector<V2f> points_;
 };
 
-Floats visibilityOf(Vec3View position, Vec3View normal, View<const uint32_t> labels, const Pcf& pcf) {
+Floats visibilityOf(Vec3View position, Vec3View normal, View<const uint32_t> labels,
+                    const Pcf& pcf) {
   Floats visibility(labels.width, labels.height);
   parallelRows(labels.height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)
       for (int x = 0; x < labels.width; ++x)
-        visibility(x, y) =
-            labels(x, y) == 0
-                ? 1.0f
-                : pcf.at(x, y, position(x, y), normal.empty() ? V3f(0, 0, 0) : normal(x, y));
+        visibility(x, y) = labels(x, y) == 0 ? 1.0f
+                                             : pcf.at(x, y, position(x, y),
+                                                      normal.empty() ? V3f(0, 0, 0) : normal(x, y));
   });
   return visibility;
 }

@@ -6,11 +6,12 @@
 namespace kagefude {
 
 struct PcfParams {
-  int samples = 32;         ///< n, taps a pixel
-  float radius = 2.0f;      ///< E, texels
-  float size = 0.0f;        ///< further radius in world units at the receiver
-  float bias = 0.5f;        ///< texel widths at the receiver
-  float slope_bias = 1.0f;  ///< how far the test follows the receiver's plane, 0 to 1
+  int samples = 32;          ///< n, taps a pixel
+  float radius = 2.0f;       ///< E, texels
+  float size = 0.0f;         ///< further radius in world units at the receiver
+  float bias = 0.5f;         ///< texel widths at the receiver
+  float slope_bias = 1.0f;   ///< how far the test follows the receiver's plane, 0 to 1
+  float spread_bias = 0.1f;  ///< further bias per unit of a tap's distance from the pixel
   int seed = 0;
 };
 
@@ -25,6 +26,9 @@ inline constexpr Parameter pcfParameters[] = {
     number<&PcfParams::slope_bias>("slope_bias", 0, 1, "",
                                    "How far the depth test follows the receiver's own plane; 0 "
                                    "tests one depth for all taps."),
+    number<&PcfParams::spread_bias>("spread_bias", 0, 10, "",
+                                    "Further bias per unit of a tap's distance from the pixel, "
+                                    "against self-shadow in hollows."),
     number<&PcfParams::seed>("seed", 0, 1e9, "", "Chooses the turn of the taps at each pixel."),
 };
 inline constexpr ParameterTable pcfTable{
@@ -41,9 +45,12 @@ inline constexpr ParameterTable pcfTable{
 ///
 /// Test (002 section 4.1, mended: V = S never holds in floating point): lit when V' - bias <= S,
 /// with V' the depth of the receiver's tangent plane at that texel's centre, so a flat receiver
-/// needs no other slope bias. |V' - V| is held below 8 times the distance on the map, where the
-/// plane is seen almost edge-on. A tap outside the map, a pixel behind the light, a NaN position
-/// and a NaN depth are lit. Throws InputError when sizes differ or the map is empty.
+/// needs no other slope bias; a hollow one rises above that plane, so the bias grows by
+/// `spread_bias` with the tap's distance. A pixel whose normal points away from the light is hidden
+/// by its own body: 0, since there the plane would leak. |V' - V| is held below 8 times the
+/// distance on the map, where the plane is seen almost edge-on. A tap outside the map, a pixel
+/// behind the light, a NaN position and a NaN depth are lit. Throws InputError when sizes differ or
+/// the map is empty.
 ///
 /// Cost: n reads a pixel in penumbrae; elsewhere 4 reads of a depth pyramid decide, with the same
 /// bits as the taps would give.
