@@ -71,12 +71,20 @@ V3f longSideOf(const std::vector<V3f>& points, const V3f& otherwise) {
   return best;
 }
 
+// By the octave's number alone, so that an octave keeps its place while others come and go.
+float octaveShift(float octave) {
+  const float turns = 0.618034f * octave;
+  return turns - std::floor(turns);
+}
+
 void fitScreen(BrushAnchor& anchor, float wanted) {
   const float octaves = log2Of(wanted / anchor.mappingDistance);
   if (!std::isfinite(octaves)) return;
   const float whole = std::floor(octaves);
   anchor.mappingDistance *= exp2Of(whole);
   anchor.coarser = octaves - whole;
+  anchor.shift = octaveShift(whole);
+  anchor.coarserShift = octaveShift(whole + 1.0f);
 }
 
 }  // namespace

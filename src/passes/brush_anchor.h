@@ -32,6 +32,8 @@ struct BrushAnchor {
   V3f longSide{1, 0, 0};      ///< world, unit
   float mappingDistance = 1;  ///< Md, of the finer strokes
   float coarser = 0;          ///< share of the same strokes at 2 Md, 0..1
+  float shift = 0;            ///< added to u at Md, so that octaves do not repeat each other
+  float coarserShift = 0;     ///< added to u at 2 Md
   int strip = 0;
 };
 

@@ -87,6 +87,9 @@ Rgba seedColour(const Strip& strip, const BrushTaps& taps, float tone) {
 Rgba mixedColour(const Strip& strip, const BrushTaps& taps, const BrushPixel& pixel,
                  const BrushParams& params) {
   const float amplitude = taps.amplitude * params.contrast;
+  if (taps.count == 1 && amplitude == 1.0f)
+    return lookUp(strip, taps.u[0], pixel.tone,
+                  stripProbe(strip, taps.footprint[0], params.maxProbes));
   Rgba colours{};
   float sum = 0, squares = 0;
   for (int i = 0; i < taps.count; ++i) {

@@ -5,9 +5,8 @@
 namespace kagefude {
 namespace {
 
-// Keeps the three axes' and two octaves' patterns from showing the same strokes side by side.
+// Keeps the three axes' patterns from showing the same strokes side by side.
 constexpr float axisOffset[3] = {0.0f, 0.381966f, 0.763932f};
-constexpr float octaveOffset = 0.236068f;
 // Share of the squared tangent below which an axis is not read at all.
 constexpr float axisThreshold = 0.2f;
 
@@ -17,7 +16,7 @@ float smoothStep(float t) {
 }
 
 // One reference point's strokes at one mapping distance.
-void addRing(const BrushAnchor::Point& point, float mappingDistance, float share,
+void addRing(const BrushAnchor::Point& point, float mappingDistance, float shift, float share,
              const BrushPixel& pixel, const BrushParams& params, BrushTaps& taps) {
   const V3f q = pixel.position - point.position;
   const float a = point.frame.l1.dot(q), b = point.frame.l2.dot(q);
@@ -32,7 +31,7 @@ void addRing(const BrushAnchor::Point& point, float mappingDistance, float share
   const BrushRepeat repeat = brushRepeat(std::sqrt(squared), mappingDistance, params.blendWidth);
   const auto add = [&](float count, float weight) {
     if (weight > 0.0f)
-      taps.add(angle * count, weight * share,
+      taps.add(angle * count + shift, weight * share,
                {alongX * count, pixel.toneDx, alongY * count, pixel.toneDy});
   };
   // The innermost ring draws ring 1's strokes, so nothing is mixed at its edge.
@@ -82,12 +81,15 @@ void addPolarTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brus
     const BrushAnchor::Point& point = anchor.points[place.point + static_cast<size_t>(i)];
     distance += share * axisDistance(point.frame, point.position, pixel.position);
     if (anchor.coarser < 1.0f)
-      addRing(point, anchor.mappingDistance, share * (1.0f - anchor.coarser), pixel, params, taps);
+      addRing(point, anchor.mappingDistance, anchor.shift, share * (1.0f - anchor.coarser), pixel,
+              params, taps);
     if (anchor.coarser > 0.0f)
-      addRing(point, 2.0f * anchor.mappingDistance, share * anchor.coarser, pixel, params, taps);
+      addRing(point, 2.0f * anchor.mappingDistance, anchor.coarserShift, share * anchor.coarser,
+              pixel, params, taps);
   }
   if (params.poleFade > 0.0f)
-    taps.amplitude = smoothStep(distance / (params.poleFade * anchor.mappingDistance));
+    taps.amplitude =
+        smoothStep(distance / (params.poleFade * anchor.mappingDistance * (1.0f + anchor.coarser)));
 }
 
 void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
@@ -115,8 +117,8 @@ void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
                  {axes[k].dot(pixel.dx) * unit, pixel.toneDx, axes[k].dot(pixel.dy) * unit,
                   pixel.toneDy});
     };
-    add(perUnit, axisOffset[k], 1.0f - anchor.coarser);
-    add(0.5f * perUnit, axisOffset[k] + octaveOffset, anchor.coarser);
+    add(perUnit, axisOffset[k] + anchor.shift, 1.0f - anchor.coarser);
+    add(0.5f * perUnit, axisOffset[k] + anchor.coarserShift, anchor.coarser);
   }
 }
 

@@ -12,14 +12,14 @@ struct StripPaintParams {
   int width = 512;
   int height = 512;
   float strokeWidth = 64;
-  float strokeLength = 260;
-  float spacing = 0.3f;
-  float opacity = 0.75f;
-  float hardness = 0.75f;
+  float strokeLength = 200;
+  float spacing = 0.35f;
+  float opacity = 0.8f;
+  float hardness = 0.85f;
   float pressure = 0.5f;
   float wobble = 0.12f;
-  float bristle = 0.35f;
-  float jitter = 0.03f;
+  float bristle = 0.5f;
+  float jitter = 0.06f;
   int bands = 0;
   int seed = 1;
   std::vector<float> stops{0.00f, 0.10f, 0.09f, 0.20f, 0.30f, 0.33f, 0.21f, 0.36f, 0.60f, 0.76f,
