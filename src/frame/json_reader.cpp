@@ -45,6 +45,9 @@ nlohmann::json JsonPlace::parseFile(const std::filesystem::path& path) {
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(fmt::format("{} is not valid JSON: trouble at byte {} of {}", path.string(),
                                  error.byte, bytes));
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(
+        fmt::format("{} is not valid JSON: a number in it is too large", path.string()));
   }
 }
 
