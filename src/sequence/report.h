@@ -47,6 +47,13 @@ FrameChange frameChange(const Thumbnail& before, const Thumbnail& after);
 /// values around it plus three steps. Negative values stand for "not known" and are passed over.
 std::vector<size_t> findPops(const std::vector<double>& changes);
 
+/// A frame with its pictures as the report keeps them.
+struct ReportEntry {
+  ReportFrame frame;
+  std::string image;  ///< PNG, relative to the report's folder; empty without a picture
+  Thumbnail proxy;    ///< the picture reduced, for the change between frames
+};
+
 /// A static page about a run: `index.html` and `thumbs/*.png` in a folder, everything in it, no
 /// network needed. Frames may come in any order and from several threads at a time; memory per
 /// frame is a copy of the thumbnail reduced to at most 96 pixels a side.
@@ -64,18 +71,11 @@ class Report {
   void finish() const;
 
  private:
-  struct Entry {
-    ReportFrame frame;
-    std::string image;  ///< relative to the folder, empty without a picture
-    Thumbnail proxy;
-  };
-  friend class ReportPage;
-
   std::filesystem::path folder_;
   ReportHeader header_;
   WriteImage writeImage_;
   mutable std::mutex mutex_;
-  std::map<std::pair<std::string, int>, Entry> entries_;  ///< by view and frame
+  std::map<std::pair<std::string, int>, ReportEntry> entries_;  ///< by view and frame
 };
 
 }  // namespace kagefude
