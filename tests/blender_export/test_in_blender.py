@@ -239,6 +239,36 @@ class Export(unittest.TestCase):
                 self.assertIn(sentence, errors[0])
                 self.assertFalse(os.path.exists(self.path("bad")))
 
+    def test_blender_4_without_a_shadow_pass_gives_the_same_masks(self):
+        program = ("import sys; sys.path.insert(0, sys.argv[-2]); "
+                   "from blender_export import compat, export_aovs; "
+                   "compat.has_shadow_pass = lambda: False; "
+                   "sys.exit(export_aovs.main(['--output', sys.argv[-1], '--masks', 'disc:5', "
+                   "'--depth-size', '16']))")
+        folder = tempfile.mkdtemp(prefix="kagefude-four-")
+        self.addCleanup(shutil.rmtree, folder)
+        path = os.path.join(folder, "shot.exr")
+        result = blender(self.shot, "--python-expr", program, "--", REPOSITORY, path)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        channels, _ = read_exr(path)
+        masks = [name for name in channels if name.startswith("mask.")]
+        self.assertEqual(len(masks), 20)
+        for name in masks:
+            self.assertEqual(channels[name], self.pixels[name], name)
+
+    def test_denoising_that_this_blender_may_lack_does_not_stop_the_export(self):
+        shot = self.path("denoised.blend")
+        self.addCleanup(os.remove, shot)
+        made = blender(self.shot, "--python-expr",
+                       "import bpy; bpy.context.scene.cycles.use_denoising = True; "
+                       f"bpy.ops.wm.save_as_mainfile(filepath={shot!r}, copy=True)")
+        self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
+        folder = tempfile.mkdtemp(prefix="kagefude-denoise-")
+        self.addCleanup(shutil.rmtree, folder)
+        result = export(shot, "--output", os.path.join(folder, "a.exr"), "--light", "Spot",
+                        "--masks", "pair", "--depth-size", "16")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
     def test_scale_and_line(self):
         folder = tempfile.mkdtemp(prefix="kagefude-scale-")
         self.addCleanup(shutil.rmtree, folder)
