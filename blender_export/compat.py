@@ -57,6 +57,8 @@ def set_if_known(holder, **values):
 
 def has_denoiser():
     """Debian's Blender is built without OpenImageDenoise and then fails where denoising is on."""
-    denoisers = bpy.types.CyclesRenderSettings.bl_rna.properties["denoiser"].enum_items \
-        if hasattr(bpy.types, "CyclesRenderSettings") else ()
-    return any(item.identifier == 'OPENIMAGEDENOISE' for item in denoisers)
+    try:
+        import _cycles
+    except ImportError:
+        return False
+    return bool(getattr(_cycles, "with_openimagedenoise", False))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One exported light: its mask and truth layers in the data scene, moved into place per frame."""
 
-from . import light_offset, mask_positions, vectors
+from . import compat, light_offset, mask_positions, vectors
 from .errors import ExportError
 from .light_state import (new_mask_lamp, new_truth_lamp, place_mask_lamp, place_truth_lamp,
                           read_light, travel_direction, TYPES)
@@ -11,7 +11,7 @@ from .output_names import mask_layer, truth_layer
 class LightRig:
     def __init__(self, light, key, options, data):
         self.light, self.key, self.options = light, key, options
-        self._refuse_pair_of_a_sun()
+        self._refuse_what_cannot_work()
         kind = TYPES[light.data.type]
         self.mask_lamps = {}
         for number in range(options.masks.count):
@@ -70,8 +70,11 @@ class LightRig:
         return light_offset.auto_offset(self.options.masks.kind, state.name, state.radius,
                                         state.half_length, distance, subject.radius)
 
-    def _refuse_pair_of_a_sun(self):
+    def _refuse_what_cannot_work(self):
         if self.options.masks.kind == "pair" and self.light.data.type == 'SUN':
             raise ExportError(f"light '{self.light.name}' is a sun, whose shadows do not change "
                               f"along its axis, so a pair of masks would be twice the same; use "
                               f"--masks line:5 or --masks disc:5")
+        if self.options.truth_samples and not compat.has_shadow_pass():
+            raise ExportError("the traced truth needs the Shadow pass of Cycles, which this "
+                              "Blender no longer has; leave out --truth, or use Blender 3")

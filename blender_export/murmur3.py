@@ -20,14 +20,17 @@ def murmur3_32(data, seed=0):
 
 
 def cryptomatte_hex(name):
-    """Eight hex digits of a name's id; the exponent's lowest bit is flipped where it is all 0 or 1.
+    """Eight hex digits of the id that pixels hold for a name."""
+    return f"{float_safe(murmur3_32(name.encode('utf-8'))):08x}"
 
-    An id with such an exponent would be a denormal, an infinity or not a number as a float.
+
+def float_safe(value):
+    """The hash with its lowest exponent bit flipped where all exponent bits are alike.
+
+    As a float it would be a denormal, an infinity or not a number. Blender's pixels hold the
+    changed bits, while its manifest keeps the hash as it is.
     """
-    value = murmur3_32(name.encode("utf-8"))
-    if value >> 23 & 0xFF in (0, 0xFF):
-        value ^= 1 << 23
-    return f"{value:08x}"
+    return value ^ 1 << 23 if value >> 23 & 0xFF in (0, 0xFF) else value
 
 
 def _rotate(value, bits):

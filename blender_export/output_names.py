@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Names of the written files and of the layers inside them."""
 
+import glob
 import hashlib
 import os
 import re
@@ -31,11 +32,14 @@ class OutputNames:
 
     def light_depth(self, light_key, frame):
         """`shot.Key.depth.0012.exr` beside `shot.0012.exr`."""
-        stem, end = (self.before, self.after) if self.digits else os.path.splitext(self.before)
-        joint = "" if stem.endswith((".", "_", "-")) or not stem else "."
+        joint = "" if self.before.endswith((".", "_", "-")) or not self.before else "."
         number = "." + self._number(frame) if self.digits else ""
         safe = re.sub(r'[\\/:*?"<>|\s]', "_", light_key)
-        return f"{stem}{joint}{safe}.depth{number}{end}"
+        return f"{self.before}{joint}{safe}.depth{number}{self.after}"
+
+    def parts_pattern(self):
+        """A glob for the unfinished files that a stopped export leaves behind."""
+        return os.path.join(glob.escape(self.folder), f".{glob.escape(self.before)}*.part*")
 
     def _number(self, frame):
         return f"{frame:0{self.digits + (frame < 0)}d}" if self.digits else ""
