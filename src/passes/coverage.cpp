@@ -1,0 +1,276 @@
+#include "passes/coverage.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "image/parallel.h"
+#include "passes/pixel_boxes.h"
+
+namespace kagefude {
+namespace {
+
+/// Lists up to this length are tested pixel by pixel at once rather than cut down further.
+constexpr int shortList = 6;
+constexpr float roundingBias = 4e-6f;
+
+float biasOf(float pixelSize, float reach, const CoverageParams& params) {
+  return params.bias * pixelSize + roundingBias * reach;
+}
+
+PointBox fromApex(PointBox box, const V3f& apex) {
+  box.centre -= apex;
+  return box;
+}
+
+/// What the quartering of tiles has in common: a rectangle and the wedges that may shade it.
+/// Derived supplies settle(rect, shaded) for uniform rectangles and leaf(rect, list) for the rest.
+struct Rect {
+  int x0, y0, x1, y1;
+  int width() const { return x1 - x0; }
+};
+
+/// Cuts the rectangle in four with ever shorter lists until it is uniform, a pixel, or its list is
+/// short. `settle(rect, shaded)` takes uniform ones, `leaf(rect, list)` the others.
+template <class Settle, class Leaf>
+void quarter(const PixelBoxes& boxes, const V3f& apex, float bias, bool trustInside,
+             const Rect& rect, const WedgeList& list, std::array<WedgeList, 4>& levels, int level,
+             const Settle& settle, const Leaf& leaf) {
+  if (rect.width() == 1 || list.count <= shortList) {
+    leaf(rect, list);
+    return;
+  }
+  const int half = rect.width() / 2;
+  for (int k = 0; k < 4; ++k) {
+    const int x = rect.x0 + (k % 2) * half, y = rect.y0 + (k / 2) * half;
+    const Rect part{x, y, x + half, y + half};
+    PointBox box;
+    if (!boxes.around(part.x0, part.y0, part.x1, part.y1, box)) continue;
+    WedgeList& kept = levels[level];
+    const float limit = trustInside ? bias : 1e30f;
+    const BoxState state = filterWedges(list, fromApex(box, apex), limit, kept);
+    if (state == BoxState::touching)
+      quarter(boxes, apex, bias, trustInside, part, kept, levels, level + 1, settle, leaf);
+    else
+      settle(part, state == BoxState::inside);
+  }
+}
+
+class TileShader {
+ public:
+  TileShader(const SeenSurface& surface, const ShadowWedges& wedges, const CoverageParams& params)
+      : surface_(surface), wedges_(wedges), params_(params) {}
+
+ protected:
+  /// Descends the tree for the tile and quarters what is not uniform.
+  template <class Settle, class Leaf>
+  void shade(const PixelBoxes& boxes, const Settle& settle, const Leaf& leaf) {
+    const Rect tile{0, 0, coverageTile, coverageTile};
+    if (!boxes.around(tile.x0, tile.y0, tile.x1, tile.y1, tileBox_)) return;
+    bias_ = biasOf(boxes.pixelSize(), boxes.reach(), params_);
+    // With the receiver left out, whether a wedge counts depends on the pixel's object.
+    const float limit = params_.selfShadow ? bias_ : 1e30f;
+    const BoxState state = wedges_.gather(tileBox_, limit, tileList_);
+    if (state != BoxState::touching) {
+      settle(tile, state == BoxState::inside);
+      return;
+    }
+    quarter(boxes, wedges_.apex(), bias_, params_.selfShadow, tile, tileList_, levels_, 0, settle,
+            leaf);
+  }
+  bool counts(uint32_t casterId, uint32_t receiverId) const {
+    return params_.selfShadow || casterId == 0 || casterId != receiverId;
+  }
+
+  const SeenSurface& surface_;
+  const ShadowWedges& wedges_;
+  const CoverageParams& params_;
+  PointBox tileBox_;
+  float bias_ = 0;
+  WedgeList tileList_;
+  std::array<WedgeList, 4> levels_;
+};
+
+class CoverageShader : TileShader {
+ public:
+  CoverageShader(const SeenSurface& surface, const ShadowWedges& wedges, const ShadowWedges& sight,
+                 const CoverageParams& params, View<float> result)
+      : TileShader(surface, wedges, params), sampler_(surface, sight), result_(result) {}
+
+  void tile(int x0, int y0) {
+    const PixelBoxes boxes(surface_, x0, y0, false);
+    sampler_.startTile(x0, y0, x0 + boxes.width(), y0 + boxes.height());
+    const auto settle = [&](const Rect& rect, bool shaded) {
+      eachPixel(boxes, rect, [&](int x, int y) { result_(x0 + x, y0 + y) = shaded ? 1.0f : 0.0f; });
+    };
+    shade(boxes, settle, [&](const Rect& rect, const WedgeList& list) {
+      eachPixel(boxes, rect, [&](int x, int y) { pixel(boxes, x, y, x0 + x, y0 + y, list); });
+    });
+  }
+
+ private:
+  template <class Body>
+  static void eachPixel(const PixelBoxes& boxes, const Rect& rect, const Body& body) {
+    for (int y = rect.y0; y < std::min(rect.y1, boxes.height()); ++y)
+      for (int x = rect.x0; x < std::min(rect.x1, boxes.width()); ++x)
+        if (boxes.present(x, y)) body(x, y);
+  }
+
+  void pixel(const PixelBoxes& boxes, int tileX, int tileY, int x, int y, const WedgeList& list) {
+    PointBox expected;
+    boxes.around(tileX, tileY, tileX + 1, tileY + 1, expected);
+    const float bias = biasOf(surface_.pixelSize(x, y), boxes.reach(), params_);
+    const float limit = params_.selfShadow ? bias : 1e30f;
+    const BoxState state = filterWedges(list, fromApex(expected, wedges_.apex()), limit, near_);
+    if (state != BoxState::touching) {
+      result_(x, y) = state == BoxState::inside ? 1.0f : 0.0f;
+      return;
+    }
+    sampler_.sample(x, y, points_);
+    const PointBox box = points_.box();
+    const WedgeList* wedges = &near_;
+    if (!expected.contains(box)) {
+      if (wedges_.gather(box, 1e30f, near_) == BoxState::apart) {
+        result_(x, y) = 0.0f;
+        return;
+      }
+    }
+    result_(x, y) = cut(*wedges, bias);
+  }
+
+  /// Share of the present sub-pixels inside any of the wedges.
+  float cut(const WedgeList& wedges, float bias) {
+    const V3f apex = wedges_.apex();
+    for (int k = 0; k < 64; ++k) {
+      points_.x[k] -= apex.x;
+      points_.y[k] -= apex.y;
+      points_.z[k] -= apex.z;
+    }
+    uint64_t shaded = 0;
+    for (int i = 0; i < wedges.count && (shaded & points_.present) != points_.present; ++i) {
+      uint64_t mask = wedgeMask(wedges.wedge(i), points_.x, points_.y, points_.z, bias);
+      if (!params_.selfShadow && mask != 0) mask &= ~own(wedges.id[i]);
+      shaded |= mask;
+    }
+    const int seen = std::popcount(points_.present);
+    const int hidden = std::popcount(shaded & points_.present);
+    return seen == 0 ? 0.0f : static_cast<float>(hidden) / static_cast<float>(seen);
+  }
+
+  uint64_t own(uint32_t id) const {
+    uint64_t mask = 0;
+    for (int k = 0; k < 64; ++k)
+      if (!counts(id, points_.id[k])) mask |= uint64_t{1} << k;
+    return mask;
+  }
+
+  SurfaceSampler sampler_;
+  View<float> result_;
+  SubpixelPoints points_;
+  WedgeList near_;
+};
+
+class MaskShader : TileShader {
+ public:
+  MaskShader(const SeenSurface& surface, const ShadowWedges& wedges, const CoverageParams& params,
+             View<uint8_t> result)
+      : TileShader(surface, wedges, params), result_(result) {}
+
+  void tile(int x0, int y0) {
+    const PixelBoxes boxes(surface_, x0, y0, true);
+    uint64_t shaded = 0;
+    bool loaded = false;
+    shade(
+        boxes, [&](const Rect& rect, bool full) { shaded |= full ? bitsIn(rect) : 0; },
+        [&](const Rect& rect, const WedgeList& list) {
+          if (!loaded) load(boxes, x0, y0);
+          loaded = true;
+          shaded |= cut(list, bitsIn(rect));
+        });
+    for (int y = 0; y < boxes.height(); ++y)
+      for (int x = 0; x < boxes.width(); ++x)
+        if (boxes.present(x, y) && (shaded >> (y * coverageTile + x) & 1))
+          result_(x0 + x, y0 + y) = 0;
+  }
+
+ private:
+  static uint64_t bitsIn(const Rect& rect) {
+    uint64_t mask = 0;
+    for (int y = rect.y0; y < rect.y1; ++y)
+      mask |= ((uint64_t{1} << (rect.width() - 1)) * 2 - 1) << (y * coverageTile + rect.x0);
+    return mask;
+  }
+
+  void load(const PixelBoxes& boxes, int x0, int y0) {
+    for (int k = 0; k < 64; ++k) {
+      const int x = k % coverageTile, y = k / coverageTile;
+      const bool present = x < boxes.width() && y < boxes.height() && boxes.present(x, y);
+      const V3f p = present ? surface_.relative(x0 + x, y0 + y) - wedges_.apex() : V3f(0.0f);
+      points_.x[k] = p.x;
+      points_.y[k] = p.y;
+      points_.z[k] = p.z;
+      points_.id[k] = present ? surface_.ids(x0 + x, y0 + y) : 0;
+    }
+  }
+
+  uint64_t cut(const WedgeList& list, uint64_t rect) const {
+    uint64_t shaded = 0;
+    for (int i = 0; i < list.count && (shaded & rect) != rect; ++i) {
+      uint64_t mask = wedgeMask(list.wedge(i), points_.x, points_.y, points_.z, bias_) & rect;
+      if (!params_.selfShadow)
+        for (int k = 0; k < 64; ++k)
+          if (!counts(list.id[i], points_.id[k])) mask &= ~(uint64_t{1} << k);
+      shaded |= mask;
+    }
+    return shaded;
+  }
+
+  View<uint8_t> result_;
+  SubpixelPoints points_;
+};
+
+int tiles(int pixels) { return (pixels + coverageTile - 1) / coverageTile; }
+
+LightPlace sightOf(const CameraRays& rays) {
+  return {rays.orthographic, rays.eye, rays.direction0};
+}
+
+}  // namespace
+
+Floats shadowCoverage(const SeenSurface& surface, const CasterSet& casters, const LightPlace& light,
+                      const CoverageParams& params) {
+  surface.check();
+  Floats result(surface.ids.width, surface.ids.height, 0.0f);
+  if (casters.empty()) return result;
+  const ShadowWedges wedges(casters, light, surface.rays.eye);
+  const ShadowWedges sight(casters, sightOf(surface.rays), surface.rays.eye);
+  parallelRows(tiles(surface.ids.height), 2, [&](int first, int end) {
+    CoverageShader shader(surface, wedges, sight, params, result);
+    for (int row = first; row < end; ++row)
+      for (int column = 0; column < tiles(surface.ids.width); ++column)
+        shader.tile(column * coverageTile, row * coverageTile);
+  });
+  return result;
+}
+
+Bytes hardShadowMask(const SeenSurface& surface, const CasterSet& casters, const LightPlace& light,
+                     const CoverageParams& params) {
+  surface.check();
+  Bytes result(surface.ids.width, surface.ids.height, uint8_t{1});
+  if (casters.empty()) return result;
+  const ShadowWedges wedges(casters, light, surface.rays.eye);
+  parallelRows(tiles(surface.ids.height), 2, [&](int first, int end) {
+    MaskShader shader(surface, wedges, params, result);
+    for (int row = first; row < end; ++row)
+      for (int column = 0; column < tiles(surface.ids.width); ++column)
+        shader.tile(column * coverageTile, row * coverageTile);
+  });
+  return result;
+}
+
+void coverageToVisibility(View<float> coverage, const CoverageParams& params) {
+  for (int y = 0; y < coverage.height; ++y)
+    for (int x = 0; x < coverage.width; ++x)
+      coverage(x, y) = 1.0f - params.strength * coverage(x, y);
+}
+
+}  // namespace kagefude
