@@ -12,13 +12,13 @@
 namespace kagefude {
 namespace {
 
-StripReport reportOf(const StripPicture& picture) {
+StripReport reportOf(const PaintedStrip& picture) {
   return checkStrip(picture.r, picture.g, picture.b);
 }
 
 TEST(StripPaint, ShippedStripsPassTheirCheck) {
   for (const std::string_view name : stripPresets) {
-    const StripPicture picture = paintStrip(stripPreset(name));
+    const PaintedStrip picture = paintStrip(stripPreset(name));
     const StripReport report = reportOf(picture);
     EXPECT_TRUE(report.problems.empty()) << name << ": " << report.problems.front();
     EXPECT_LT(report.seamRatio, 2.0f) << name;
@@ -30,14 +30,14 @@ TEST(StripPaint, ShippedStripsPassTheirCheck) {
 TEST(StripPaint, SameSeedSameBitsOtherSeedOtherStrokes) {
   StripPaintParams params;
   params.width = params.height = 64;
-  const StripPicture a = paintStrip(params), b = paintStrip(params);
+  const PaintedStrip a = paintStrip(params), b = paintStrip(params);
   EXPECT_EQ(std::memcmp(a.r.row(0), b.r.row(0), 64 * 64 * sizeof(float)), 0);
   params.seed = 2;
   EXPECT_NE(std::memcmp(a.r.row(0), paintStrip(params).r.row(0), 64 * 64 * sizeof(float)), 0);
 }
 
 TEST(StripPaint, StrokesShowAlongAndAcross) {
-  const StripPicture picture = paintStrip({});
+  const PaintedStrip picture = paintStrip({});
   // Unevenness along a row, which a plain gradient has not.
   double mean = 0, squares = 0;
   for (int x = 0; x < 512; ++x) {
@@ -53,7 +53,7 @@ TEST(StripPaint, WideStrokesMakeBroaderSteps) {
     StripPaintParams params;
     params.strokeWidth = strokeWidth;
     params.bristle = 0;
-    const StripPicture picture = paintStrip(params);
+    const PaintedStrip picture = paintStrip(params);
     int count = 0;
     for (int x = 0; x < 512; x += 16)
       for (int y = 1; y < 511; ++y) {
@@ -68,7 +68,7 @@ TEST(StripPaint, WideStrokesMakeBroaderSteps) {
 
 TEST(StripPaint, BandsAreFlatBetweenTheSteps) {
   StripPaintParams params = stripPreset("cel");
-  const StripPicture picture = paintStrip(params);
+  const PaintedStrip picture = paintStrip(params);
   for (int band = 0; band < 4; ++band) {
     const int row = 511 - (band * 128 + 64);
     for (int x = 1; x < 512; ++x) ASSERT_NEAR(picture.r(x, row), picture.r(0, row), 2e-3f);
@@ -100,7 +100,7 @@ TEST(StripCheck, FindsASeam) {
 
 TEST(StripCheck, FindsAnUpsideDownStrip) {
   StripPaintParams params;
-  const StripPicture picture = paintStrip(params);
+  const PaintedStrip picture = paintStrip(params);
   Floats turned(512, 512);
   for (int y = 0; y < 512; ++y)
     for (int x = 0; x < 512; ++x) turned(x, y) = picture.g(x, 511 - y);
