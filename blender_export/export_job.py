@@ -29,7 +29,8 @@ class ExportJob:
         lights = shot.exported_lights(objects, options.lights)
         subjects = [item for item in objects if item.type not in {'LIGHT', 'CAMERA', 'LIGHT_PROBE'}]
         shot.refuse_instanced_lights(subjects)
-        shot.show_what_renders(objects)
+        shot.evaluate_as_rendered(objects, view_layer)
+        self.objects = objects
         self.materials = sorted(bpy.data.materials, key=lambda material: material.name)
         shot.give_distinct_indices(shot.all_geometry())
         shot.give_distinct_indices(self.materials)
@@ -57,6 +58,7 @@ class ExportJob:
     def _export_frame(self, frame):
         """Renders one frame, yielding after each image; the files appear together at the end."""
         self.scene.frame_set(frame)
+        shot.show_what_renders(self.objects)
         depsgraph = bpy.context.evaluated_depsgraph_get()
         view = camera_view.read_camera(self.scene, depsgraph)
         entries, things = sidecar.describe_objects(depsgraph)

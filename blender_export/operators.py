@@ -43,14 +43,14 @@ class KAGEFUDE_OT_export(bpy.types.Operator):
 
     def modal(self, context, event):
         manager = context.window_manager
-        if event.type == 'ESC' or manager.kagefude_cancel:
+        if manager.kagefude_cancel:
             self._export.cancel()
         if event.type != 'TIMER' and not self._export.finished:
             return {'PASS_THROUGH'}
         if not self._export.poll():
             manager.kagefude_percent = self._export.percent
             context.workspace.status_text_set(
-                f"kagefude: {self._export.status}, {self._export.percent} % (Esc cancels)")
+                f"kagefude: {self._export.status}, {self._export.percent} %")
             _redraw(context)
             return {'PASS_THROUGH'}
         return self._finish(context)

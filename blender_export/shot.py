@@ -36,16 +36,31 @@ def rendered_objects(view_layer):
     return [found[name] for name in sorted(found)]
 
 
-def show_what_renders(objects):
-    """Let evaluation see what a render sees: visibility, modifiers and subdivision levels."""
+def evaluate_as_rendered(objects, view_layer):
+    """Let evaluation see what a render sees: view layer, collections, modifiers, subdivision."""
+    if bpy.context.window:
+        bpy.context.window.view_layer = view_layer
+    for collection in bpy.data.collections:
+        collection.hide_viewport = collection.hide_render
+    _open_eyes(view_layer.layer_collection)
     for item in objects:
-        item.hide_viewport = item.hide_render
+        item.hide_set(False, view_layer=view_layer)
         for modifier in item.modifiers:
             modifier.show_viewport = modifier.show_render
             if modifier.type in {'SUBSURF', 'MULTIRES'}:
                 modifier.levels = modifier.render_levels
-    for collection in bpy.data.collections:
-        collection.hide_viewport = collection.hide_render
+
+
+def show_what_renders(objects):
+    """The same for the objects' own switches, which may be animated: call it on every frame."""
+    for item in objects:
+        item.hide_viewport = item.hide_render
+
+
+def _open_eyes(layer_collection):
+    layer_collection.hide_viewport = False
+    for child in layer_collection.children:
+        _open_eyes(child)
 
 
 def exported_lights(objects, names):

@@ -54,7 +54,7 @@ inline constexpr ParameterTable pairTable{
 /// label: 1 at the lit edge, falling to 1/2 where the shadow is deepest, since one of two masks
 /// still sees the light. Without lit pixels likewise v = D1/(D1 + M), from 0 up to 1/2; with
 /// neither 1/2. Throws InputError when sizes differ.
-/// Cost: two nearest-site searches (see nearest_site.h); 14 bytes a pixel of scratch.
+/// Cost: two nearest-site searches (see nearest_site.h); 12 bytes a pixel of scratch.
 Floats pairVisibility(View<const uint8_t> farMask, View<const uint8_t> nearMask,
                       View<const uint32_t> labels, const PairParams& params);
 

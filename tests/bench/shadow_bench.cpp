@@ -14,12 +14,13 @@
 namespace kagefude {
 namespace {
 
-/// Discs of shadow with soft rims on labelled blocks: about a quarter of the frame is penumbra.
+/// Discs of shadow with soft rims on labelled columns, each with umbra, penumbra and lit pixels.
 struct Frame {
   Bytes farMask, nearMask;
   Labels labels;
 
-  explicit Frame(int size) : farMask(size, size, 1), nearMask(size, size, 1), labels(size, size) {
+  explicit Frame(int size, int columns = 5)
+      : farMask(size, size, 1), nearMask(size, size, 1), labels(size, size) {
     std::mt19937 random(1);
     for (int i = 0; i < 12; ++i) {
       const int cx = static_cast<int>(random() % size), cy = static_cast<int>(random() % size);
@@ -33,8 +34,7 @@ struct Frame {
         }
     }
     for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x)
-        labels(x, y) = static_cast<uint32_t>(1 + x * 5 / size + y * 4 / size * 5);
+      for (int x = 0; x < size; ++x) labels(x, y) = static_cast<uint32_t>(1 + x * columns / size);
   }
 };
 

@@ -35,13 +35,13 @@ def wait_for(export):
 
 
 def check_panel(settings):
-    words = exporter("export_words").export_words(settings, bpy.context.scene, "/tmp/a.####.exr")
+    words = exporter("export_words").export_words(settings, bpy.context.scene, "a.####.exr")
     options = exporter("arguments").parse_arguments(words)
     assert options.frames == [bpy.context.scene.frame_current], options
     assert (options.masks.kind, options.masks.count, options.offset) == ("disc", 9, None), options
     settings.frames, settings.masks, settings.offset_auto = 'SCENE', 'line', False
     settings.light = bpy.data.objects["Spot"]
-    words = exporter("export_words").export_words(settings, bpy.context.scene, "/tmp/a.####.exr")
+    words = exporter("export_words").export_words(settings, bpy.context.scene, "a.####.exr")
     options = exporter("arguments").parse_arguments(words)
     assert options.frames == [1, 2, 3] and options.lights == ["Spot"], options
     assert (options.masks.kind, options.masks.count) == ("line", 5), options

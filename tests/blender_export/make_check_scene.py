@@ -38,6 +38,11 @@ def add_objects():
     emission.default_value = (1.0, 0.5, 0.2, 1.0)
     hidden = tools.box("Not Rendered", (-3, -3, 3), (3, 3, 3.2), tools.material("Unused", (1, 0, 0)))
     hidden.hide_render = True
+    late = tools.box("Late", (-3, 2, 0), (-2.4, 2.6, 0.6), tools.material("Blue", (0.1, 0.2, 0.7)))
+    for frame, hide in ((1, True), (3, False)):
+        late.hide_render = hide
+        late.keyframe_insert("hide_render", frame=frame)
+    late.hide_viewport = True
     mark = bpy.data.objects.new("Reference Top", None)
     bpy.context.scene.collection.objects.link(mark)
     mark.parent = ball

@@ -269,6 +269,20 @@ class Export(unittest.TestCase):
                         "--masks", "pair", "--depth-size", "16")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
+    def test_objects_that_appear_later_are_described_once_they_render(self):
+        folder = tempfile.mkdtemp(prefix="kagefude-late-")
+        self.addCleanup(shutil.rmtree, folder)
+        result = export(self.shot, "--output", os.path.join(folder, "a.##.exr"), "--frames", "2-3",
+                        "--masks", "pair", "--light", "Spot", "--depth-size", "16")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        for frame, there in ((2, False), (3, True)):
+            with open(os.path.join(folder, f"a.{frame:02}.json"), encoding="utf-8") as file:
+                objects = {item["name"]: item["index"] for item in json.load(file)["objects"]}
+            self.assertEqual("Late" in objects, there)
+            channels, _ = read_exr(os.path.join(folder, f"a.{frame:02}.exr"))
+            seen = {value for row in channels["data.IndexOB.V"] for value in row} - {0.0}
+            self.assertEqual(seen, {float(index) for index in objects.values()})
+
     def test_scale_and_line(self):
         folder = tempfile.mkdtemp(prefix="kagefude-scale-")
         self.addCleanup(shutil.rmtree, folder)
