@@ -88,8 +88,7 @@ int comp(const CompOptions& options, Console& console) {
     progress->begin(batch.jobs().size());
     result = batch.run([&](const CompEvent& event) {
       const std::string name = event.job->name();
-      for (const std::string& warning : event.warnings)
-        progress->warning(name + ": " + warning);
+      for (const std::string& warning : event.warnings) progress->warning(name + ": " + warning);
       const FrameEvent& frame = event.frame;
       progress->frame({name, frame.outcome == FrameOutcome::kept, frame.message,
                        frame.readSeconds + frame.computeSeconds + frame.writeSeconds});
@@ -113,9 +112,10 @@ void addCompCommand(CLI::App& app, Console& console, int& exit) {
       ->delimiter(',');
   command->add_option("--set", options->overrides, "section.key=value, over the look's own");
   command->add_option("--preview", options->preview, "folder for display-ready PNGs");
-  command->add_option("--existing", options->existing,
-                      "outputs that are there: overwrite, skip, or update what is stale "
-                      "(overwrite)")
+  command
+      ->add_option("--existing", options->existing,
+                   "outputs that are there: overwrite, skip, or update what is stale "
+                   "(overwrite)")
       ->check(CLI::IsMember({"overwrite", "skip", "update"}));
   command->add_flag("--skip-bad-frames", options->skipBadFrames,
                     "go on after a frame that fails, and exit with 1 at the end");

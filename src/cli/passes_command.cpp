@@ -68,7 +68,8 @@ Json toJson(const ParameterTable& table) {
   for (const Parameter& p : table.parameters) {
     Json row{{"name", p.name}, {"type", typeName(p.type)}, {"default", defaultOf(p)}};
     if (hasRange(p)) row["range"] = {p.minimum, p.maximum};
-    if (!p.choices.empty()) row["choices"] = std::vector<std::string>(p.choices.begin(), p.choices.end());
+    if (!p.choices.empty())
+      row["choices"] = std::vector<std::string>(p.choices.begin(), p.choices.end());
     if (!p.unit.empty()) row["unit"] = p.unit;
     row["help"] = p.help;
     parameters.push_back(std::move(row));
@@ -115,7 +116,8 @@ void addPassesCommand(CLI::App& app, Console& console, int&) {
       "passes", "Print every pass and parameter: type, default, range, unit, meaning");
   command->add_option("name", options->name, "only this pass or section");
   command->add_flag("--json", options->json, "as JSON");
-  command->callback([options, &console] { printPasses(console.out, options->name, options->json); });
+  command->callback(
+      [options, &console] { printPasses(console.out, options->name, options->json); });
 }
 
 }  // namespace kagefude

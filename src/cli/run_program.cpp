@@ -40,8 +40,9 @@ int runProgram(int argc, const char* const* argv, Console& console) {
   } catch (const Error& error) {
     return report(console, error, someFailed);
   } catch (const std::bad_alloc&) {
-    return report(console, OutputError("out of memory; fewer frames at once need less, see "
-                                       "--max-memory"),
+    return report(console,
+                  OutputError("out of memory; fewer frames at once need less, see "
+                              "--max-memory"),
                   someFailed);
   } catch (const std::exception& error) {
     return report(console, error, someFailed);

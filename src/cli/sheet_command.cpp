@@ -23,8 +23,7 @@ void drawSheet(const SheetOptions& options, Console& console) {
   const int frame = frameNumberOf(options.input).value_or(1);
   const FramePlan plan = planFrame(look, options.input, frame);
   ContactSheet sheet(colour, look.colour, options.tile);
-  const FrameResult result =
-      composeFrame(look, strips, plan, readFramePlanes(plan), &sheet);
+  const FrameResult result = composeFrame(look, strips, plan, readFramePlanes(plan), &sheet);
   sheet.write(options.output);
   for (const std::string& warning : result.warnings)
     console.err << "warning: " << options.input << ": " << warning << "\n";

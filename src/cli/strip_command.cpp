@@ -73,8 +73,8 @@ void addMake(CLI::App& strip, Console& console) {
       "make", "Paint a seamless strip; its parameters are those of `kagefude passes strip`");
   command->add_option("output", options->output, "picture to write (PNG, 16 bit)")->required();
   command->add_option("--preset", options->preset, "soft, fine or cel (soft)")
-      ->check(CLI::IsMember(std::vector<std::string>(std::begin(stripPresets),
-                                                     std::end(stripPresets))));
+      ->check(CLI::IsMember(
+          std::vector<std::string>(std::begin(stripPresets), std::end(stripPresets))));
   command->add_option("--set", options->settings, "key=value, over the preset's own");
   command->callback([options, &console] { makeStripFile(*options, console); });
 }

@@ -56,9 +56,9 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   FrameResult result;
   result.warnings = plan.warnings;
   if (planes.badPixels)
-    result.warnings.push_back(fmt::format(
-        "{} pixels hold NaN or Inf in Position or Normal and are taken as background",
-        planes.badPixels));
+    result.warnings.push_back(
+        fmt::format("{} pixels hold NaN or Inf in Position or Normal and are taken as background",
+                    planes.badPixels));
   Labels surfaces =
       labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces);
   if (sink) showInputs(planes, surfaces, *sink);
@@ -69,8 +69,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   adjustTone(tone, styled.anchorIndex, styled.tones);
   if (sink) sink->number("brush.tone", tone);
   BrushParams params = look.passes.brush;
-  params.diagnostics =
-      sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");
+  params.diagnostics = sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");
   BrushResult brush = applyBrush(planes.position, planes.normal, tone, styled.anchorIndex,
                                  styled.anchors, strips.strips(), params);
   if (sink) {

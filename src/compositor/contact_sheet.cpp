@@ -66,22 +66,26 @@ void ContactSheet::add(const std::string& title, int width, int height, const Pi
 }
 
 void ContactSheet::number(const std::string& title, View<const float> plane) {
-  add(title, plane.width, plane.height,
+  add(
+      title, plane.width, plane.height,
       [&](int x, int y) { return V3f(std::clamp(plane(x, y), 0.0f, 1.0f)); }, true);
 }
 
 void ContactSheet::mask(const std::string& title, View<const uint8_t> plane) {
-  add(title, plane.width, plane.height,
+  add(
+      title, plane.width, plane.height,
       [&](int x, int y) { return V3f(plane(x, y) ? 1.0f : 0.0f); }, true);
 }
 
 void ContactSheet::labels(const std::string& title, View<const uint32_t> plane) {
-  add(title, plane.width, plane.height, [&](int x, int y) { return labelColour(plane(x, y)); },
+  add(
+      title, plane.width, plane.height, [&](int x, int y) { return labelColour(plane(x, y)); },
       false);
 }
 
 void ContactSheet::classes(const std::string& title, View<const uint8_t> plane) {
-  add(title, plane.width, plane.height,
+  add(
+      title, plane.width, plane.height,
       [&](int x, int y) {
         switch (static_cast<ShadowClass>(plane(x, y))) {
           case ShadowClass::umbra:
@@ -98,12 +102,14 @@ void ContactSheet::classes(const std::string& title, View<const uint8_t> plane) 
 }
 
 void ContactSheet::directions(const std::string& title, Vec3View plane) {
-  add(title, plane.width(), plane.height(),
+  add(
+      title, plane.width(), plane.height(),
       [&](int x, int y) { return plane(x, y) * 0.5f + V3f(0.5f); }, true);
 }
 
 void ContactSheet::picture(const std::string& title, Vec3View plane) {
-  add(title, plane.width(), plane.height(), [&](int x, int y) { return plane(x, y); }, true);
+  add(
+      title, plane.width(), plane.height(), [&](int x, int y) { return plane(x, y); }, true);
   Tile& tile = tiles_.back();
   colour_.toDisplay(tile.r, tile.g, tile.b, spaces_.display, spaces_.view);
 }

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/frame_pattern.h"
 #include "base/glob.h"
 #include "base/nearest_name.h"
-#include "base/frame_pattern.h"
 
 namespace kagefude {
 namespace {
@@ -192,13 +192,14 @@ void checkMethod(const FrameLight& light) {
   if (!needsMasks(light.method)) return;
   const size_t needed = light.method == ShadowMethod::disc ? 5 : 2;
   if (light.maskChannels.size() < needed)
-    throw InputError(fmt::format(
-        "light {} has {} masks, but shadow.method = \"{}\" needs {} or more; export it with --masks "
-        "{}",
-        light.name, light.maskChannels.size(), methodName(light.method), needed,
-        light.method == ShadowMethod::pair   ? "pair"
-        : light.method == ShadowMethod::line ? "line:5"
-                                             : "disc:9"));
+    throw InputError(
+        fmt::format("light {} has {} masks, but shadow.method = \"{}\" needs {} or more; export it "
+                    "with --masks "
+                    "{}",
+                    light.name, light.maskChannels.size(), methodName(light.method), needed,
+                    light.method == ShadowMethod::pair   ? "pair"
+                    : light.method == ShadowMethod::line ? "line:5"
+                                                         : "disc:9"));
   if (light.method == ShadowMethod::pair && light.maskChannels.size() != 2)
     throw InputError(fmt::format(
         "light {} has {} masks, but shadow.method = \"pair\" needs the 2 of --masks pair",

@@ -25,8 +25,8 @@ struct FrameLight {
   std::string name;
   Light light;
   V3f subjectCentre{0, 0, 0};
-  float subjectRadius = 0;          ///< 0: unknown
-  float weight = 1;                 ///< share of the tone, before normalising over lights
+  float subjectRadius = 0;                   ///< 0: unknown
+  float weight = 1;                          ///< share of the tone, before normalising over lights
   ShadowMethod method = ShadowMethod::none;  ///< never `automatic`
   float strength = 1;
   PassParams passes;

@@ -36,17 +36,21 @@ std::map<uint32_t, std::string> namesOf(const ImageFile& image, const Aov& aov,
   return {};
 }
 
-/// Object ids: named in the look first, then Cryptomatte, which knows names, then the index pass.
+/// Object ids: surfaces made elsewhere first; then the index pass where a sidecar names its
+/// numbers, since it is sampled at the same points as position and normal; then Cryptomatte, whose
+/// names are in the file; then the index pass without names.
 void planObjects(const AovNames& names, FramePlan& plan) {
   if (const auto surface = findAov(plan.image, names, AovKind::surface)) {
     plan.idSource = IdSource::surface;
     plan.objectId = *surface;
     return;
   }
-  const bool indexAsked = !names.objectIndex.empty() && names.cryptoObject.empty();
+  const bool indexAsked =
+      names.cryptoObject.empty() &&
+      (!names.objectIndex.empty() || (plan.sidecar && !plan.sidecar->objects.empty()));
   const auto crypto = findAov(plan.image, names, AovKind::cryptoObject);
   const auto index = findAov(plan.image, names, AovKind::objectIndex);
-  if (crypto && !indexAsked) {
+  if (crypto && !(indexAsked && index)) {
     plan.idSource = IdSource::cryptomatte;
     plan.objectId = *crypto;
     plan.objectNames = namesOf(plan.image, *crypto, plan.warnings);
@@ -63,8 +67,24 @@ void nameObjectsFromSidecar(FramePlan& plan) {
   for (const SidecarObject& object : plan.sidecar->objects)
     plan.objectNames.emplace(plan.idSource == IdSource::index ? object.index : object.cryptoId,
                              object.name);
-  for (const SidecarMaterial& material : plan.sidecar->materials)
-    plan.materialNames.emplace(material.cryptoId, material.name);
+}
+
+void planMaterials(const AovNames& names, FramePlan& plan) {
+  const auto index = findAov(plan.image, names, AovKind::materialIndex);
+  const bool named = plan.sidecar && !plan.sidecar->materials.empty();
+  if (index && named && names.cryptoMaterial.empty()) {
+    plan.materialSource = IdSource::index;
+    plan.materialId = *index;
+    for (const SidecarMaterial& material : plan.sidecar->materials)
+      plan.materialNames.emplace(material.index, material.name);
+    return;
+  }
+  plan.materialSource = IdSource::cryptomatte;
+  plan.materialId = requireAov(plan.image, names, AovKind::cryptoMaterial);
+  plan.materialNames = namesOf(plan.image, *plan.materialId, plan.warnings);
+  if (named)
+    for (const SidecarMaterial& material : plan.sidecar->materials)
+      plan.materialNames.emplace(material.cryptoId, material.name);
 }
 
 void readVector(std::vector<Floats>& planes, size_t& next, Vec3Plane& into) {
@@ -127,10 +147,7 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   plan.albedo = findAov(plan.image, names, AovKind::albedo);
   plan.beauty = findAov(plan.image, names, AovKind::beauty);
   planObjects(names, plan);
-  if (anyStyleHas(look, &StyleParams::material)) {
-    plan.materialId = requireAov(plan.image, names, AovKind::cryptoMaterial);
-    plan.materialNames = namesOf(plan.image, *plan.materialId, plan.warnings);
-  }
+  if (anyStyleHas(look, &StyleParams::material)) planMaterials(names, plan);
   nameObjectsFromSidecar(plan);
   plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame);
   return plan;
@@ -163,12 +180,13 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   }
   for (const FrameLight& light : plan.lights) {
     LightPlanes& own = planes.lights.emplace_back();
-    for (size_t i = 0; i < light.maskChannels.size(); ++i) own.masks.push_back(toMask(read[next++]));
+    for (size_t i = 0; i < light.maskChannels.size(); ++i)
+      own.masks.push_back(toMask(read[next++]));
     if (light.method == ShadowMethod::pcf) own.depthMap = readDepthMap(*light.depthMap);
   }
   planes.objectId = readIds(plan.image, plan.objectId, plan.idSource);
   if (plan.materialId)
-    planes.materialId = readIds(plan.image, *plan.materialId, IdSource::cryptomatte);
+    planes.materialId = readIds(plan.image, *plan.materialId, plan.materialSource);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearBackground(planes);
   return planes;

@@ -23,7 +23,8 @@ struct FramePlan {
   std::optional<Aov> albedo, beauty;
   IdSource idSource = IdSource::cryptomatte;
   Aov objectId;
-  std::optional<Aov> materialId;             ///< only when a style asks for materials
+  IdSource materialSource = IdSource::cryptomatte;
+  std::optional<Aov> materialId;  ///< only when a style asks for materials
   std::map<uint32_t, std::string> objectNames;
   std::map<uint32_t, std::string> materialNames;
   std::vector<std::string> warnings;

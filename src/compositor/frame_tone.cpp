@@ -38,8 +38,8 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
   for (size_t i = 0; i < plan.lights.size(); ++i) {
     const FrameLight& light = plan.lights[i];
     Floats visibility = lightVisibility(light, planes.lights[i], planes, surfaces, sink);
-    Floats tone = lambertShade(planes.normal, planes.position, surfaces, light.light,
-                               light.passes.shade);
+    Floats tone =
+        lambertShade(planes.normal, planes.position, surfaces, light.light, light.passes.shade);
     if (sink) sink->number(fmt::format("shade of {}", light.name), tone);
     weaken(visibility, light.strength);
     mergeTone(visibility, tone, light.passes.merge, tone);

@@ -27,7 +27,10 @@ Floats unsmoothed(const FrameLight& light, const LightPlanes& planes, const Fram
                   View<const uint32_t> surfaces) {
   switch (light.method) {
     case ShadowMethod::pair:
-      return pairVisibility(planes.masks.at(0), planes.masks.at(1), surfaces, light.passes.pair);
+      return pairVisibility(
+          planes.masks.at(0), planes.masks.at(1),
+          light.passes.pair.bound == SearchBound::surface ? surfaces : frame.objectId,
+          light.passes.pair);
     case ShadowMethod::pcf: {
       const ShadowMap map{planes.depthMap, light.depthMap->lightFromWorld,
                           light.depthMap->clipFromLight};
@@ -40,8 +43,8 @@ Floats unsmoothed(const FrameLight& light, const LightPlanes& planes, const Fram
 
 }  // namespace
 
-Floats lightVisibility(const FrameLight& light, const LightPlanes& planes,
-                       const FramePlanes& frame, View<const uint32_t> surfaces, StageSink* sink) {
+Floats lightVisibility(const FrameLight& light, const LightPlanes& planes, const FramePlanes& frame,
+                       View<const uint32_t> surfaces, StageSink* sink) {
   if (sink) showMasks(light, planes, surfaces, *sink);
   Floats visibility = unsmoothed(light, planes, frame, surfaces);
   if (light.method != ShadowMethod::none)

@@ -153,14 +153,13 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     const StyleLook* found = styleFor(look, plan, index.surfaces[number - 1]);
     const StyleLook& style = found ? *found : fallback;
     const FrameLight& light = lightFor(plan, style.style);
-    BrushSubject subject =
-        subjectOf(style.style, plan, light, index, number, planes, warnings);
+    BrushSubject subject = subjectOf(style.style, plan, light, index, number, planes, warnings);
     subject.strip = strips.indexOf(style.style.strip);
     result.anchors.push_back(makeBrushAnchor(subject, light.light, style.passes.brush));
     result.tones.push_back(style.passes.tone);
-    result.multiplies.push_back(style.style.colour == StripColour::multiply ||
-                                (style.style.colour == StripColour::automatic &&
-                                 isBuiltinStrip(style.style.strip)));
+    result.multiplies.push_back(
+        style.style.colour == StripColour::multiply ||
+        (style.style.colour == StripColour::automatic && isBuiltinStrip(style.style.strip)));
   }
   result.anchorIndex = std::move(index.plane);
   return result;

@@ -13,8 +13,8 @@ namespace kagefude {
 struct StyledSurfaces {
   Plane<uint16_t> anchorIndex;  ///< 0 = background, i -> anchors[i - 1]
   std::vector<BrushAnchor> anchors;
-  std::vector<ToneParams> tones;   ///< per anchor
-  std::vector<bool> multiplies;    ///< per anchor: the strip multiplies the surface's colour
+  std::vector<ToneParams> tones;  ///< per anchor
+  std::vector<bool> multiplies;   ///< per anchor: the strip multiplies the surface's colour
 };
 
 /// Gives every object (and material, where styles ask) the first style that matches, or the look's

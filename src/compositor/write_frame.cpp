@@ -34,10 +34,9 @@ void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& resu
   image.attributes = attributes;
   const PixelType colour =
       look.output.colour == PixelKind::half ? PixelType::half : PixelType::single;
-  image.channels = {floatChannel("R", colour, result.colour.x),
-                    floatChannel("G", colour, result.colour.y),
-                    floatChannel("B", colour, result.colour.z),
-                    floatChannel("A", colour, result.alpha)};
+  image.channels = {
+      floatChannel("R", colour, result.colour.x), floatChannel("G", colour, result.colour.y),
+      floatChannel("B", colour, result.colour.z), floatChannel("A", colour, result.alpha)};
   for (const NamedPlane& layer : result.layers)
     image.channels.push_back(floatChannel(layer.name, PixelType::single, layer.plane));
   if (!result.surfaceId.empty())

@@ -52,8 +52,8 @@ Value choiceFrom(const toml::node& node, const std::string& key, const Parameter
 Value numbersFrom(const toml::node& node, const std::string& key, const Parameter& p) {
   const toml::array* array = node.as_array();
   // An empty list is how a look says "none" where that is the default.
-  const bool none = array && array->empty() &&
-                    std::get<std::vector<double>>(p.defaultValue()).empty();
+  const bool none =
+      array && array->empty() && std::get<std::vector<double>>(p.defaultValue()).empty();
   if (!array || (p.count != 0 && array->size() != p.count && !none))
     fail(node, p.count ? fmt::format("{} wants a list of {} numbers", key, p.count)
                        : fmt::format("{} wants a list of numbers", key));

@@ -20,8 +20,8 @@ void makeFolderOf(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::create_directories(file.parent_path(), error);
   if (error)
-    throw OutputError(fmt::format("cannot make the folder {}: {}", file.parent_path().string(),
-                                  error.message()));
+    throw OutputError(
+        fmt::format("cannot make the folder {}: {}", file.parent_path().string(), error.message()));
 }
 
 void removeLeftoversOf(const std::vector<FrameJob>& jobs) {
@@ -89,8 +89,7 @@ bool CompBatch::isDone(size_t index) const {
 
 CompBatch::Read CompBatch::read(size_t index) const {
   const FrameJob& job = jobs_[index];
-  if (job.missing)
-    throw InputError(fmt::format("{} is not there", job.missing->string()));
+  if (job.missing) throw InputError(fmt::format("{} is not there", job.missing->string()));
   std::string print = fingerprint(job);
   FramePlan plan = planFrame(look_, job.inputs.front(), job.frame);
   FramePlanes planes = readFramePlanes(plan);
