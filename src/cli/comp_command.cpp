@@ -55,7 +55,7 @@ CompRequest requestFrom(const CompOptions& options, std::stop_token stop) {
 }
 
 std::string summaryOf(const BatchResult& result) {
-  std::string text = fmt::format("{} frames done", result.done);
+  std::string text = fmt::format("{} {} done", result.done, result.done == 1 ? "frame" : "frames");
   if (result.kept) text += fmt::format(", {} kept", result.kept);
   if (!result.failures.empty()) text += fmt::format(", {} failed", result.failures.size());
   if (result.untouched) text += fmt::format(", {} not made", result.untouched);

@@ -220,8 +220,10 @@ std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
     chosen.push_back(std::move(light));
   }
   if (chosen.empty())
-    throw InputError(fmt::format("no light takes part: shadow.lights asks for {}, the frame has {}",
-                                 listNames(look.shadow.lights), listNames(names)));
+    throw InputError(fmt::format(
+        "no light takes part: shadow.lights asks for {}, the frame has {}{}",
+        listNames(look.shadow.lights), listNames(names),
+        names.empty() ? "; export a light with the frame, or describe one in the look" : ""));
   return chosen;
 }
 

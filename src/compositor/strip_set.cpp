@@ -19,6 +19,11 @@ constexpr std::string_view paintedSpace = "sRGB";
 
 bool isBuiltinStrip(const std::string& name) { return name.starts_with(builtinPrefix); }
 
+bool multipliesColour(const StyleParams& style) {
+  if (style.colour == StripColour::automatic) return style.strip == "builtin:neutral";
+  return style.colour == StripColour::multiply;
+}
+
 StripSet::StripSet(const Look& look, const Colour& colour) {
   load(look, colour, StyleParams{}.strip);
   for (const StyleLook& style : look.styles) load(look, colour, style.style.strip);

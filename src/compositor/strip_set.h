@@ -17,7 +17,7 @@ class StripSet {
   /// when a file cannot be used, LookError when a built-in name is unknown.
   StripSet(const Look& look, const Colour& colour);
 
-  /// The index of a style's strip in strips(); "builtin:soft" for surfaces without a style.
+  /// The index of a style's strip in strips(); "builtin:neutral" for surfaces without a style.
   int indexOf(const std::string& name) const { return indices_.at(name); }
   const std::vector<Strip>& strips() const { return strips_; }
 
@@ -30,5 +30,8 @@ class StripSet {
 
 /// Whether a strip's name means one that is painted by the program itself.
 bool isBuiltinStrip(const std::string& name);
+
+/// Whether a style's strip multiplies the surface's colour; `auto` does for the neutral strip.
+bool multipliesColour(const StyleParams& style);
 
 }  // namespace kagefude

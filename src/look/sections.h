@@ -90,7 +90,7 @@ struct StyleParams {
   std::vector<std::string> object;
   std::vector<std::string> material;
   int index = 0;
-  std::string strip = "builtin:soft";
+  std::string strip = "builtin:neutral";
   StripColour colour = StripColour::automatic;
   std::vector<float> reference;
   std::string light;
@@ -101,11 +101,11 @@ inline constexpr Parameter styleParameters[] = {
     number<&StyleParams::index>("index", 0, 1 << 24, "",
                                 "object index that the style paints; 0: by name only"),
     plain<&StyleParams::strip>(
-        "strip", "picture of the strip, relative to the look, or builtin:soft, :fine, :cel"),
+        "strip", "picture of the strip, relative to the look, or builtin:neutral, :soft, :fine, :cel"),
     choice<&StyleParams::colour>(
         "colour", stripColourNames,
         "whether the strip replaces the surface's colour or multiplies it; auto multiplies for "
-        "built-in strips"),
+        "builtin:neutral only"),
     numbers<&StyleParams::reference>(
         "reference", 0, -1e12, 1e12, "world units",
         "reference point x, y, z for all objects of the style; empty: each object's own"),

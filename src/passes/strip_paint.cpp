@@ -190,6 +190,14 @@ StripPaintParams stripPreset(std::string_view name) {
                     0.62f, 0.55f, 0.88f, 0.78f, 0.86f, 0.68f, 1.00f, 0.98f, 0.97f, 0.86f};
     return params;
   }
+  if (name == "neutral") {
+    params.strokeWidth = 40;
+    params.strokeLength = 220;
+    params.jitter = 0.05f;
+    params.stops = {0.00f, 0.13f, 0.14f, 0.22f, 0.40f, 0.42f, 0.41f, 0.47f,
+                    0.75f, 0.76f, 0.73f, 0.70f, 1.00f, 1.00f, 0.98f, 0.94f};
+    return params;
+  }
   if (name == "cel") {
     params.strokeWidth = 26;
     params.strokeLength = 150;
@@ -203,8 +211,8 @@ StripPaintParams stripPreset(std::string_view name) {
                     0.67f, 0.90f, 0.56f, 0.42f, 1.00f, 1.00f, 0.88f, 0.70f};
     return params;
   }
-  throw UsageError(fmt::format("no strip is called {}{}; there are soft, fine and cel", name,
-                               didYouMean(name, {"soft", "fine", "cel"})));
+  throw UsageError(fmt::format("no strip is called {}{}; there are neutral, soft, fine and cel",
+                               name, didYouMean(name, {"neutral", "soft", "fine", "cel"})));
 }
 
 }  // namespace kagefude

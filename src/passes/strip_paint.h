@@ -74,9 +74,10 @@ struct PaintedStrip {
 /// Cost: about π/4 · height / (spacing · stroke_width) · 2 brush areas a column; 512² takes 0.1 s.
 PaintedStrip paintStrip(const StripPaintParams& params);
 
-/// The parameters of the strips that are shipped: "soft" (wide soft strokes), "fine" (fine
-/// strokes), "cel" (flat bands with strokes at the steps). Throws UsageError for any other name.
+/// The parameters of the strips that are shipped: "neutral" (greys, warm in the light and cool in
+/// the shadow, to be multiplied with a surface's own colour), "soft" (wide soft strokes), "fine"
+/// (fine strokes), "cel" (flat bands with strokes at the steps). Throws UsageError for any other name.
 StripPaintParams stripPreset(std::string_view name);
-inline constexpr std::string_view stripPresets[] = {"soft", "fine", "cel"};
+inline constexpr std::string_view stripPresets[] = {"neutral", "soft", "fine", "cel"};
 
 }  // namespace kagefude
