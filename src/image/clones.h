@@ -1,0 +1,11 @@
+#pragma once
+
+/// Marks a function that is compiled for several instruction sets and picked when the program
+/// starts. With -ffp-contract=off, and no reordering of sums, all of them give the same bits.
+/// Left out under sanitizers, which instrument the resolver before they are ready.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define KAGEFUDE_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
+#else
+#define KAGEFUDE_CLONES
+#endif
