@@ -5,11 +5,6 @@
 namespace kagefude {
 namespace {
 
-// Keeps the three axes' patterns from showing the same strokes side by side.
-constexpr float axisOffset[3] = {0.0f, 0.381966f, 0.763932f};
-// Share of the squared tangent below which an axis is not read at all.
-constexpr float axisThreshold = 0.2f;
-
 float smoothStep(float t) {
   const float c = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
   return c * c * (3.0f - 2.0f * c);
@@ -96,7 +91,7 @@ void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
                  BrushTaps& taps) {
   const BrushPlace place = brushPlace(anchor, pixel.position, params.pointBlend);
   const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
-  const float near = 0.05f * anchor.mappingDistance;
+  const float near = heldNearAxis * anchor.mappingDistance;
   float parts[3] = {near * near, near * near, near * near};
   for (int i = 0; i < 2; ++i) {
     const float share = i == 0 ? 1.0f - place.next : place.next;

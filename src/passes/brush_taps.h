@@ -8,6 +8,13 @@
 // Where one pixel reads its strip: the brush pass's mathematics without its loops.
 namespace kagefude {
 
+/// Keeps the patterns of the object's three axes from showing the same strokes side by side.
+inline constexpr float axisOffset[3] = {0.0f, 0.381966f, 0.763932f};
+/// Share of the squared stroke direction below which an axis is not read at all.
+inline constexpr float axisThreshold = 0.2f;
+/// Distance from the light axis, in mapping distances, within which the three axes weigh alike.
+inline constexpr float heldNearAxis = 0.05f;
+
 /// One pixel of the brush pass: place, normal (zero: unknown), tone, and their change to the next
 /// pixel in x and y.
 struct BrushPixel {

@@ -42,7 +42,8 @@ Rgba stripBilinear(const Strip& strip, float u, float v);
 
 /// **[ours]** Mean over the footprint: probes along the long axis of the pixel's ellipse, at most
 /// `maxProbes` (beyond that blurred rather than aliased), each trilinear in the chain at the width
-/// of the short axis. A footprint below one texel is stripBilinear, bit for bit. Differences in u
+/// of the short axis. A footprint below 1.4 texels is stripBilinear, bit for
+/// bit, for its tent averages as much. Differences in u
 /// must be given without the wrap (0.1 over the seam from 0.95 to 0.05, not -0.9).
 /// Against an average of many bilinear lookups: within about 0.02 of the strip's range (tested).
 Rgba stripFiltered(const Strip& strip, float u, float v, const Footprint& footprint, int maxProbes);

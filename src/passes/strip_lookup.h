@@ -72,32 +72,45 @@ inline Rgba rowMeanAt(const Strip& strip, float v, float lod) {
   return fine == last ? a : a + (at(strip.levels[fine + 1]) - a) * (level - float(fine));
 }
 
+/// Width in texels up to which bilinear interpolation alone averages enough: its tent has the
+/// spread of a box of this width.
+inline constexpr float bilinearWidth = 1.41421356f;
+
 /// The ellipse that the unit pixel covers on the strip, from the matrix whose columns are the two
-/// footprint vectors in texels: its long axis is split into probes, its short axis picks the level.
-inline StripProbe stripProbe(const Strip& strip, const Footprint& f, int maxProbes) {
-  const float w = static_cast<float>(strip.width()), h = static_cast<float>(strip.height());
-  const float ux = f.ux * w, uy = f.uy * w, vx = f.vx * h, vy = f.vy * h;
+/// footprint vectors in texels (ux, vx), (uy, vy): its long axis is split into probes, its short
+/// axis picks the level. `width`, `height`: of the full-size strip. Without branches, so that loops
+/// over pixels vectorise; `probes` is a whole number.
+inline void probeEllipse(float ux, float vx, float uy, float vy, float width, float height,
+                         float maxProbes, float& probes, float& lod, float& stepU, float& stepV) {
   const float a = ux * ux + uy * uy, b = ux * vx + uy * vy, c = vx * vx + vy * vy;
-  StripProbe probe;
-  // Also leaves by this door when a footprint is NaN.
-  if (!(a + c > 1.0f)) return probe;
   const float spread = std::sqrt((a - c) * (a - c) + 4.0f * b * b);
   const float longest = std::sqrt(0.5f * (a + c + spread));
+  // NaN takes the small side of every comparison and ends as one lookup.
+  const bool large = longest > bilinearWidth;
   const float area = std::fabs(ux * vy - uy * vx);
-  const float shortest = std::max(1.0f, area / longest);
-  const float probes =
-      std::min(std::ceil(longest / shortest), static_cast<float>(std::max(1, maxProbes)));
-  const float width = std::max(shortest, longest / probes);
-  probe.count = static_cast<int>(probes);
-  probe.lod = width > 1.0f ? log2Of(width) : 0.0f;
-  if (probe.count <= 1) return probe;
+  const float narrow = large ? area / longest : 0.0f;
+  const float shortest = narrow > bilinearWidth ? narrow : bilinearWidth;
+  const float wanted = large ? std::ceil(longest / shortest) : 1.0f;
+  probes = wanted < maxProbes ? wanted : maxProbes;
+  const float share = longest / probes;
+  const float level = log2Of(large ? (shortest > share ? shortest : share) : 1.0f) - 0.5f;
+  lod = level > 1e-6f ? level : 0.0f;
   // Of the two expressions for the long axis's direction, the one without cancellation.
-  float du = a >= c ? 0.5f * (a - c + spread) : b;
-  float dv = a >= c ? b : 0.5f * (c - a + spread);
+  const float du = a >= c ? 0.5f * (a - c + spread) : b;
+  const float dv = a >= c ? b : 0.5f * (c - a + spread);
   const float norm = std::sqrt(du * du + dv * dv);
-  const float step = longest / (probes * norm);
-  probe.stepU = du * step / w;
-  probe.stepV = dv * step / h;
+  const float step = probes > 1.0f ? share / norm : 0.0f;
+  stepU = step > 0.0f ? du * step / width : 0.0f;
+  stepV = step > 0.0f ? dv * step / height : 0.0f;
+}
+
+inline StripProbe stripProbe(const Strip& strip, const Footprint& f, int maxProbes) {
+  const float w = static_cast<float>(strip.width()), h = static_cast<float>(strip.height());
+  StripProbe probe;
+  float probes;
+  probeEllipse(f.ux * w, f.vx * h, f.uy * w, f.vy * h, w, h, static_cast<float>(maxProbes), probes,
+               probe.lod, probe.stepU, probe.stepV);
+  probe.count = static_cast<int>(probes);
   return probe;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "passes/brush_pixel.h"
 #include "passes/brush_scene.h"
 
 namespace kagefude {
@@ -205,6 +206,32 @@ TEST(BrushMap, ReferencePointsHandOverSmoothly) {
     const BrushResult result = scene.paint(std::span(&anchor, 1), strips, mappingOf(mapping));
     for (int x = 1; x < 400; ++x)
       ASSERT_LT(std::fabs(result.r(x, 90) - result.r(x - 1, 90)), 0.03f) << x;
+  }
+}
+
+TEST(BrushMap, RowsEqualThePlainPassToTheBit) {
+  const auto strips = oneStrip(test::noiseStrip(96, 80));
+  for (uint32_t seed = 0; seed < 6; ++seed) {
+    const BrushScene scene = test::randomScene(301, 45, 10 * seed);
+    BrushAnchor anchors[] = {test::straightAnchor(0.2f), test::straightAnchor(0.02f)};
+    anchors[0].coarser = seed % 2 == 0 ? 0.0f : 0.3f;
+    anchors[1].points[0].frame.axis = V3f(0.6f, 0.0f, -0.8f);
+    BrushParams params;
+    params.contrast = seed % 3 == 0 ? 1.0f : 1.7f;
+    params.crossFade =
+        seed % 4 == 3 ? BrushParams::CrossFade::linear : BrushParams::CrossFade::variance;
+    const Vec3View normal = seed == 4 ? Vec3View{} : scene.normal.view();
+    const BrushResult fast =
+        applyBrush(scene.position, normal, scene.tone, scene.index, anchors, strips, params);
+    const BrushInput in{scene.position, normal, scene.tone, scene.index, anchors, strips, params};
+    for (int y = 0; y < 45; ++y)
+      for (int x = 0; x < 301; ++x) {
+        if (scene.index(x, y) == 0) continue;
+        const Rgba plain =
+            brushColourAt(in, anchors[scene.index(x, y) - 1], x, y, in.position(x, y));
+        ASSERT_EQ(fast.r(x, y), plain[0]) << seed << ": " << x << "," << y;
+        ASSERT_EQ(fast.a(x, y), plain[3]);
+      }
   }
 }
 

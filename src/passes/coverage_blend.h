@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "image/plane.h"
+
+namespace kagefude {
+
+/// One rank of a Cryptomatte: which thing, and how much of the pixel it covers, 0..1.
+struct CoverageRank {
+  View<const uint32_t> id;
+  View<const float> coverage;
+};
+
+/// Scene-linear colour with associated alpha.
+struct ColourViews {
+  View<const float> r, g, b, a;
+};
+struct ColourPlanes {
+  Floats r, g, b, a;
+};
+
+/// **[ours]** Clean edges between styles: every pixel's colour was made for the one thing at its
+/// centre (`ownId`, in the ranks' ids, 0 = background); here it becomes Σ coverage x colour over
+/// all things that the ranks name. A thing that is not the pixel's own lends the mean colour of the
+/// pixels of its own in the 3x3 round it, or in the 5x5 where those have none. Things found nowhere
+/// near are left out and their share goes to the others; share that belongs to background or is not
+/// named stays empty, so the result's alpha is the covered share. Where the first rank covers all,
+/// or ranks are absent, colours are taken over bit for bit. Coverage below 1/512 and NaN are
+/// ignored. Cost: 9 to 25 reads for each foreign rank of an edge pixel.
+ColourPlanes blendByCoverage(const ColourViews& colour, View<const uint32_t> ownId,
+                             std::span<const CoverageRank> ranks);
+
+}  // namespace kagefude
