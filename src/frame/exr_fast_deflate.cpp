@@ -13,7 +13,10 @@
 namespace kagefude {
 namespace {
 
-int libdeflateLevel(ExrEffort effort) { return effort == ExrEffort::small ? 4 : 1; }
+/// Measured with libdeflate 1.14: on noisy colour, which is what is written, level 1 is a third
+/// faster than 2 to 4 and packs better; 5 and 6 save 0.3 % more for a third of the speed. On flat
+/// data channels all levels pack alike.
+constexpr int libdeflateLevel = 1;
 
 #ifdef KAGEFUDE_HAVE_ISAL
 size_t isalDeflate(uint32_t level, std::vector<uint8_t>& levelBuffer, const uint8_t* in,
@@ -52,7 +55,7 @@ bool Inflater::inflate(const uint8_t* packed, size_t packedSize, uint8_t* out, s
          LIBDEFLATE_SUCCESS;
 }
 
-Deflater::Deflater(ExrEffort effort) {
+Deflater::Deflater([[maybe_unused]] ExrEffort effort) {
 #ifdef KAGEFUDE_HAVE_ISAL
   if (effort != ExrEffort::small) {
     isalLevel_ = effort == ExrEffort::fast ? 1 : 3;
@@ -60,7 +63,7 @@ Deflater::Deflater(ExrEffort effort) {
     return;
   }
 #endif
-  compressor_.reset(libdeflate_alloc_compressor(libdeflateLevel(effort)));
+  compressor_.reset(libdeflate_alloc_compressor(libdeflateLevel));
   if (!compressor_) throw std::bad_alloc();
 }
 

@@ -10,11 +10,12 @@ struct libdeflate_decompressor;
 
 namespace kagefude {
 
-/// What a writer spends on size. All three are lossless.
+/// What a writer spends on size. All are lossless; without ISA-L all three are `small`. Sizes and
+/// speeds are those of noisy 4K colour against OIIO's.
 enum class ExrEffort {
-  fast,      ///< ISA-L level 1 where it is built in (a fifth larger, five times as fast)
-  balanced,  ///< ISA-L level 3 where it is built in: nearly the size of `small`
-  small,     ///< libdeflate level 4
+  fast,      ///< ISA-L level 1: 4 % larger, ten times as fast
+  balanced,  ///< ISA-L level 3: 1 % larger, six times as fast
+  small,     ///< libdeflate: the same size, three times as fast
 };
 
 /// Inflates zlib streams of known size. One per thread.

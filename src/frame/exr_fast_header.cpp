@@ -115,9 +115,13 @@ exr_compression_t compressionOf(ExrCompression compression) {
   }
 }
 
+/// OpenEXR refuses windows that reach beyond half the range of an int.
 bool windowIsUsable(const Window& w) {
-  return w.width > 0 && w.height > 0 && static_cast<int64_t>(w.x) + w.width - 1 <= INT32_MAX &&
-         static_cast<int64_t>(w.y) + w.height - 1 <= INT32_MAX;
+  constexpr int64_t limit = INT32_MAX / 2;
+  const auto inside = [](int64_t first, int64_t size) {
+    return size > 0 && first >= -limit && first + size - 1 < limit;
+  };
+  return inside(w.x, w.width) && inside(w.y, w.height);
 }
 
 void checkName(const std::string& path, const char* kind, const std::string& name,

@@ -142,7 +142,7 @@ class ChunkPacker {
 
   template <class T>
   void storeRow(const T* row, const ExrSourceChannel& channel, size_t bytes, uint8_t* out) const {
-    if constexpr (std::is_same_v<T, const float>) {
+    if constexpr (std::is_same_v<T, float>) {
       if (channel.type == ExrType::half) {
         // A row begins on an even byte of an aligned buffer: samples have 2 or 4 bytes.
         kernels_.floatToHalf(row, bytes / 2, reinterpret_cast<uint16_t*>(out));
