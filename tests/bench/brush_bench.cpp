@@ -30,7 +30,7 @@ struct Scene {
     for (int i = 0; i < styles; ++i) {
       StripPaintParams paint;
       paint.seed = i;
-      const StripPicture picture = paintStrip(paint);
+      const PaintedStrip picture = paintStrip(paint);
       strips.push_back(makeStrip(picture.r, picture.g, picture.b));
       BrushAnchor anchor;
       anchor.strip = i;
