@@ -18,6 +18,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "frame/exr_fast_read.h"
 #include "image/parallel.h"
 
 namespace kagefude {
@@ -67,7 +68,7 @@ void readRows(const ImageFile& file, int part, const Imf::FrameBuffer& buffer, i
   if (window.min.x != expected.x || window.min.y != expected.y ||
       int64_t{window.max.x} - window.min.x + 1 != expected.width ||
       int64_t{window.max.y} - window.min.y + 1 != expected.height) {
-    throw InputError("it changed while it was read");
+    throw InputError(file.path.string() + " changed while it was read");
   }
   inputPart.setFrameBuffer(buffer);
   inputPart.readPixels(window.min.y + first, window.min.y + end - 1);
@@ -82,6 +83,37 @@ void readPart(const ImageFile& file, int part, const Imf::FrameBuffer& buffer) {
   const int grain = (chunks + threads - 1) / threads * bandRows;
   parallelRows(height, grain,
                [&](int first, int end) { readRows(file, part, buffer, first, end); });
+}
+
+ExrTarget fastTarget(const ExrPart& part, const Window& window, const PlaneTarget& target) {
+  const int channel = part.channelIndex(target.channel->nameInPart);
+  const int w = window.width, h = window.height;
+  if (target.type == PixelType::half) {
+    return {channel, View<uint16_t>(static_cast<uint16_t*>(target.pixels), w, h)};
+  }
+  if (target.type == PixelType::uint) {
+    return {channel, View<uint32_t>(static_cast<uint32_t*>(target.pixels), w, h)};
+  }
+  return {channel, View<float>(static_cast<float*>(target.pixels), w, h)};
+}
+
+// False when the part is not of the plain kind that the fast path reads.
+bool readFast(const FastExr& fast, const ImageFile& file, int number,
+              std::span<const PlaneTarget> targets) {
+  const auto index = static_cast<size_t>(number);
+  if (index >= fast.parts().size() || !fast.parts()[index].readable) return false;
+  const ExrPart& part = fast.parts()[index];
+  const Window& window = file.parts[index].dataWindow;
+  std::vector<ExrTarget> wanted;
+  for (const PlaneTarget& target : targets) {
+    if (target.channel->part != number) continue;
+    wanted.push_back(fastTarget(part, window, target));
+    if (part.data != window || wanted.back().channel < 0) {
+      throw InputError(file.path.string() + " changed while it was read");
+    }
+  }
+  if (!wanted.empty()) fast.read(number, wanted);
+  return true;
 }
 
 // `from` has the channel's own type, or both have the type single.
@@ -101,11 +133,16 @@ void copyPlane(const PlaneTarget& from, const PlaneTarget& to, size_t pixels) {
 }  // namespace
 
 void readPlanes(const ImageFile& file, std::span<const PlaneTarget> targets) {
+  if (targets.empty()) return;
+  const auto fast = FastExr::open(file.path);
   try {
     for (size_t part = 0; part < file.parts.size(); ++part) {
+      if (fast && readFast(*fast, file, static_cast<int>(part), targets)) continue;
       const auto buffer = frameBufferOf(file, static_cast<int>(part), targets);
       if (buffer.begin() != buffer.end()) readPart(file, static_cast<int>(part), buffer);
     }
+  } catch (const InputError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {

@@ -126,6 +126,11 @@ SidecarObject readObject(const JsonPlace& json) {
   object.boundsMin = json["bounds"]["min"].vector();
   object.boundsMax = json["bounds"]["max"].vector();
   object.referencePoint = json["reference_point"].vector();
+  if (json.has("reference_points")) {
+    for (const JsonPlace& point : json["reference_points"].list()) {
+      object.referencePoints.push_back(point.vector());
+    }
+  }
   if (json.has("materials")) {
     for (const JsonPlace& name : json["materials"].list()) object.materials.push_back(name.text());
   }

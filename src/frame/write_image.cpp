@@ -14,6 +14,8 @@
 
 #include "base/error.h"
 #include "frame/atomic_file.h"
+#include "frame/exr_attributes.h"
+#include "frame/exr_fast_write.h"
 #include "image/parallel.h"
 
 namespace kagefude {
@@ -164,16 +166,82 @@ Imf::Header makeHeader(const OutputImage& image) {
   return header;
 }
 
+namespace {
+
+ExrSourceChannel fastChannel(const OutputChannel& c) {
+  constexpr std::array<ExrType, 3> types = {ExrType::half, ExrType::float32, ExrType::uint32};
+  const ExrType type = types[static_cast<size_t>(c.type)];
+  if (!c.halves.empty()) return {c.name, type, c.halves};
+  if (!c.words.empty()) return {c.name, type, c.words};
+  return {c.name, type, c.values};
+}
+
+// The image in the fast writer's terms; nothing for codecs and attributes that it does not know.
+// `made` owns the half planes: values beyond a half's range are held there, so they are made here.
+std::optional<ExrImage> fastImage(const OutputImage& image, const Imf::Header& header,
+                                  std::vector<Plane<uint16_t>>& made) {
+  if (image.compression == Compression::rle || image.compression == Compression::piz) {
+    return std::nullopt;
+  }
+  auto attributes = detail::fastAttributes(header);
+  if (!attributes) return std::nullopt;
+  ExrImage fast;
+  fast.data = image.dataWindow;
+  fast.display = image.displayWindow;
+  fast.pixelAspect = image.pixelAspect;
+  fast.screenWindowCenter = {header.screenWindowCenter().x, header.screenWindowCenter().y};
+  fast.screenWindowWidth = header.screenWindowWidth();
+  fast.attributes = *std::move(attributes);
+  fast.compression = image.compression == Compression::none   ? ExrCompression::none
+                     : image.compression == Compression::zips ? ExrCompression::zips
+                                                              : ExrCompression::zip;
+  for (OutputChannel channel : image.channels) {
+    if (channel.type == PixelType::half && !channel.values.empty()) {
+      made.push_back(toHalf(channel.values));
+      channel.halves = made.back();
+    }
+    fast.channels.push_back(fastChannel(channel));
+  }
+  return fast;
+}
+
+// Messages name the file that the caller asked for, not its temporary.
+void writeFast(const AtomicFile& file, const ExrImage& image) {
+  try {
+    writeFastExr(file.temporaryPath(), image);
+  } catch (const OutputError& problem) {
+    std::string message = problem.what();
+    const std::string temporary = file.temporaryPath().string();
+    const size_t place = message.find(temporary);
+    if (place != std::string::npos) {
+      message.replace(place, temporary.size(), file.finalPath().string());
+    }
+    throw OutputError(message);
+  }
+}
+
+void writeByOpenExr(AtomicFile& file, const OutputImage& image, const Imf::Header& header) {
+  std::vector<Plane<uint16_t>> made;
+  const Imf::FrameBuffer buffer = frameBufferOf(image, made);
+  Stream stream(file);
+  Imf::OutputFile output(stream, header, 0);
+  output.setFrameBuffer(buffer);
+  output.writePixels(image.dataWindow.height);
+}
+
+}  // namespace
+
 void writeExr(const std::filesystem::path& path, const OutputImage& image) {
   check(path, image);
   AtomicFile file(path);
   try {
+    const Imf::Header header = makeHeader(image);
     std::vector<Plane<uint16_t>> made;
-    const Imf::FrameBuffer buffer = frameBufferOf(image, made);
-    Stream stream(file);
-    Imf::OutputFile output(stream, makeHeader(image), 0);
-    output.setFrameBuffer(buffer);
-    output.writePixels(image.dataWindow.height);
+    if (const auto fast = fastImage(image, header, made)) {
+      writeFast(file, *fast);
+    } else {
+      writeByOpenExr(file, image, header);
+    }
   } catch (const OutputError&) {
     throw;
   } catch (const std::bad_alloc&) {
