@@ -17,19 +17,22 @@ done
 cmake --build --preset release --target kagefude
 kagefude=build/release/kagefude
 
+examples/make_strips.sh "$kagefude" $out/strips >/dev/null
+
 # Prints the frame range of a shot.
 frames_of() { [ "$1" = moving_light ] && echo 1-24 || echo 1; }
 
 for shot in "${shots[@]}"; do
   folder=$out/$shot
   mkdir -p "$folder"
-  if [ "examples/$shot.py" -nt "$folder/rendered" ] || [ blender_export -nt "$folder/rendered" ]; then
+  # A missing stamp makes find complain, which counts as newer.
+  if [ -n "$(find examples/*.py blender_export -name '*.py' -newer "$folder/rendered" 2>&1)" ]; then
     echo "Rendering $shot with Blender ..."
     blender -b --factory-startup --python-exit-code 3 -P "examples/$shot.py" -- \
       "$folder/$shot.blend" >"$folder/blender.log"
     blender -b "$folder/$shot.blend" --python-exit-code 3 -P blender_export/export_aovs.py -- \
-      --output "$folder/aovs/$shot.####.exr" --frames "$(frames_of "$shot")" --masks disc:9 \
-      2>&1 | tee -a "$folder/blender.log" | grep --line-buffered '^Progress' || true
+      --output "$folder/aovs/$shot.####.exr" --frames "$(frames_of "$shot")" --masks pair \
+      2>&1 | tee -a "$folder/blender.log" | sed -n -u '/^Progress:\|^Error/p'
     touch "$folder/rendered"
   fi
   "$kagefude" comp "examples/$shot.toml" "$folder/aovs/$shot.####.exr" \
