@@ -62,10 +62,6 @@ CryptomattePlanes requestCryptomatte(ChannelReader& reader, std::string_view nam
 /// gives 0. One rank: that rank's ids where covered.
 Labels dominantIds(const CryptomattePlanes& planes);
 
-/// Shell pattern match of a whole name: * any run, ? any one byte, everything else itself. Case
-/// counts. Cost: linear in name x number of stars.
-bool globMatches(std::string_view pattern, std::string_view name);
-
 /// The ids whose manifest names match the pattern, rising. A pattern without * or ? also gives its
 /// own hash, so plain names work without a manifest.
 std::vector<uint32_t> matchingIds(const std::map<uint32_t, std::string>& names,

@@ -1,6 +1,7 @@
 #include <bit>
 #include <set>
 
+#include "base/glob.h"
 #include "frame/cryptomatte.h"
 
 namespace kagefude {
@@ -38,32 +39,11 @@ uint32_t cryptomatteId(std::string_view name) {
   return exponent == 0 || exponent == 255 ? hash ^ (1u << 23) : hash;
 }
 
-bool globMatches(std::string_view pattern, std::string_view name) {
-  size_t p = 0, n = 0, starInPattern = std::string_view::npos, starInName = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      starInPattern = p++;
-      starInName = n;
-    } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
-      ++p;
-      ++n;
-    } else if (starInPattern != std::string_view::npos) {
-      // The last star swallows one byte more; earlier stars never need another try.
-      p = starInPattern + 1;
-      n = ++starInName;
-    } else {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
-
 std::vector<uint32_t> matchingIds(const std::map<uint32_t, std::string>& names,
                                   std::string_view pattern) {
   std::set<uint32_t> ids;
   for (const auto& [id, name] : names) {
-    if (globMatches(pattern, name)) ids.insert(id);
+    if (matchesGlob(name, pattern)) ids.insert(id);
   }
   if (pattern.find_first_of("*?") == std::string_view::npos) ids.insert(cryptomatteId(pattern));
   return {ids.begin(), ids.end()};

@@ -36,22 +36,6 @@ TEST(CryptomatteId, IsNeverADenormalZeroOrNan) {
   }
 }
 
-TEST(GlobMatches, StarsAndQuestionMarks) {
-  EXPECT_TRUE(globMatches("*", ""));
-  EXPECT_TRUE(globMatches("Cup*", "Cup.001"));
-  EXPECT_FALSE(globMatches("cup*", "Cup.001"));
-  EXPECT_TRUE(globMatches("*a*b*c", "xxaxxbxbxcxc"));
-  EXPECT_FALSE(globMatches("*a*b*c", "xxaxxbxbxcxd"));
-  EXPECT_TRUE(globMatches("?up", "Cup"));
-  EXPECT_FALSE(globMatches("?up", "up"));
-  EXPECT_TRUE(globMatches("[a]", "[a]"));
-  EXPECT_FALSE(globMatches("Cup", "Cupboard"));
-}
-
-TEST(GlobMatches, ManyStarsStayQuick) {
-  EXPECT_FALSE(globMatches(std::string(2000, '*') + "b", std::string(4000, 'a')));
-}
-
 TEST(MatchingIds, PlainNamesWorkWithoutAManifest) {
   EXPECT_EQ(matchingIds({}, "Cup"), std::vector<uint32_t>{cryptomatteId("Cup")});
   EXPECT_TRUE(matchingIds({}, "Cup*").empty());
