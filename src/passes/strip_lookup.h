@@ -22,9 +22,9 @@ inline float fractionOf(float u) {
   const float safe = std::fabs(u) < 8388608.0f ? u : 0.0f;
   const float whole = static_cast<float>(static_cast<int>(safe));
   const float fraction = safe - whole;
-  const float positive = fraction + (fraction < 0.0f ? 1.0f : 0.0f);
+  const float positive = fraction + static_cast<float>(fraction < 0.0f);
   // Rounding can lift a tiny negative u to 1 exactly.
-  return positive * (positive < 1.0f ? 1.0f : 0.0f);
+  return positive * static_cast<float>(positive < 1.0f);
 }
 
 /// Two neighbouring rows of a level, and the share of the lower one.
