@@ -25,16 +25,16 @@ struct BrushResult {
 /// stay
 ///   on the object whatever light and camera do. Of the three axes those count that run along the
 ///   tone's circles round the light axis (projected onto the surface when normals are given), by
-///   w_k = max(0, m_k - 1/5)², m_k the squared parts of that direction. There is no angle to wrap,
-///   no ring and no pole: on the axis all three weigh alike.
+///   w_k = max(0, m_k / max m - 3/5)², m_k the squared parts of that direction. There is no angle
+///   to wrap, no ring and no pole: on the axis all three weigh alike.
 /// Mixing, where several patterns meet (rings, axes, reference points, octaves):
 /// M = mean + contrast Σ w (C - mean) / √Σ w² with the row's mean colour, or / Σ w (linear).
-/// Negative results of that become 0. Filtering: footprints from the neighbours of the same anchor,
-/// of the two the one that differs less, so that silhouettes and hard shadow edges stay sharp;
-/// angles by their analytic derivative, so the wrap does not show.
-/// Index 0, indices beyond the list, and non-finite positions give 0; a NaN tone is 0. All planes
-/// must be of one size; `normal` may be empty; every strip index must be valid (InputError).
-/// Memory: 16 bytes a pixel for the result, 24 with diagnostics. The same bits for any threads.
+/// Negative results become 0, but for `seed`. Filtering: footprints from the neighbours of the same
+/// anchor, of the two the one that differs less, so that silhouettes and hard shadow edges stay
+/// sharp; angles by their analytic derivative, so the wrap does not show. Index 0, indices beyond
+/// the list, and non-finite positions give 0; a NaN tone is 0. All planes must be of one size;
+/// `normal` may be empty; every strip index must be valid (InputError). Memory: 16 bytes a pixel
+/// for the result, 24 with diagnostics. The same bits for any threads.
 BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
                        View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
                        std::span<const Strip> strips, const BrushParams& params);

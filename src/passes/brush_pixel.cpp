@@ -14,25 +14,24 @@ struct Change {
   float tone = 0;
 };
 
-// Change to the next pixel along one direction, from the neighbour before or behind that belongs
+// Change to the next pixel along one direction, from the neighbour behind or before that belongs
 // to the same anchor and differs less; position and tone choose for themselves.
 Change changeAlong(const BrushInput& in, int x, int y, int stepX, int stepY, const V3f& p,
                    float tone) {
   Change best;
-  float smallest = -1.0f, smallestTone = -1.0f;
+  float smallest = noChange, smallestTone = noChange;
   for (int side = 1; side >= -1; side -= 2) {
     const int nx = x + side * stepX, ny = y + side * stepY;
     if (!in.index.contains(nx, ny) || in.index(nx, ny) != in.index(x, y)) continue;
     const V3f neighbour = in.position(nx, ny);
     if (!isFinite(neighbour)) continue;
     const V3f d = (neighbour - p) * static_cast<float>(side);
-    const float length = d.dot(d);
-    if (smallest < 0.0f || length < smallest) {
-      smallest = length;
+    if (d.dot(d) < smallest) {
+      smallest = d.dot(d);
       best.position = d;
     }
     const float dTone = (clampedUnit(in.tone(nx, ny)) - tone) * static_cast<float>(side);
-    if (smallestTone < 0.0f || std::fabs(dTone) < smallestTone) {
+    if (std::fabs(dTone) < smallestTone) {
       smallestTone = std::fabs(dTone);
       best.tone = dTone;
     }
@@ -68,26 +67,20 @@ Rgba seedColour(const Strip& strip, const BrushTaps& taps, float tone) {
 
 Rgba mixedColour(const Strip& strip, const BrushTaps& taps, const BrushPixel& pixel,
                  const BrushParams& params) {
-  const float amplitude = taps.amplitude * params.contrast;
-  if (taps.count == 1 && amplitude == 1.0f)
-    return lookUp(strip, taps.u[0], pixel.tone,
-                  stripProbe(strip, taps.footprint[0], params.maxProbes));
-  Rgba colours{};
   float sum = 0, squares = 0;
+  for (int i = 0; i < taps.count; ++i) sum += taps.weight[i];
+  for (int i = 0; i < taps.count; ++i) squares += taps.weight[i] / sum * (taps.weight[i] / sum);
+  const bool keepContrast = params.crossFade == BrushParams::CrossFade::variance;
+  const float gain =
+      taps.amplitude * (keepContrast ? params.contrast / std::sqrt(squares) : params.contrast);
+  Rgba mixed = stripRowMean(strip, pixel.tone) * (1.0f - gain);
   for (int i = 0; i < taps.count; ++i) {
     const StripProbe probe = stripProbe(strip, taps.footprint[i], params.maxProbes);
-    colours += lookUp(strip, taps.u[i], pixel.tone, probe) * taps.weight[i];
-    sum += taps.weight[i];
-    squares += taps.weight[i] * taps.weight[i];
+    mixed += lookUp(strip, taps.u[i], pixel.tone, probe) * (taps.weight[i] / sum * gain);
   }
-  const Rgba plain = colours / sum;
-  const bool keepContrast = params.crossFade == BrushParams::CrossFade::variance && taps.count > 1;
-  if (amplitude == 1.0f && !keepContrast) return plain;
-  const float gain = keepContrast ? amplitude * sum / std::sqrt(squares) : amplitude;
-  const float dv = std::max(std::fabs(pixel.toneDx), std::fabs(pixel.toneDy));
-  const Rgba mean = stripRowMean(strip, pixel.tone, dv);
-  const Rgba mixed = mean + (plain - mean) * gain;
-  return mixed > 0.0f ? mixed : Rgba{};
+  mixed = mixed > 0.0f ? mixed : Rgba{};
+  if (strip.opaque) mixed[3] = 1.0f;
+  return mixed;
 }
 
 }  // namespace

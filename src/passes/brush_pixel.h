@@ -18,6 +18,9 @@ struct BrushInput {
   const BrushParams& params;
 };
 
+/// Squared distance that stands for "no neighbour".
+inline constexpr float noChange = 3.0e38f;
+
 inline bool isFinite(const V3f& v) {
   const float sum = v.x + v.y + v.z;
   return sum - sum == 0.0f;
@@ -29,7 +32,7 @@ inline float clampedUnit(float value) {
 }
 
 /// Brush colour of one pixel at finite position p, in plain steps: what applyBrush means. Rows of
-/// the common case are painted faster, to the same bits, by brush_rows.
+/// the common case are painted faster, within a few roundings of this, by brush_rows.
 Rgba brushColourAt(const BrushInput& in, const BrushAnchor& anchor, int x, int y, const V3f& p);
 
 }  // namespace kagefude

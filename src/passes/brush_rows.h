@@ -19,9 +19,10 @@ struct ColourRows {
 /// Whether paintHeldRow can do this anchor: held strokes, filtered, round one reference point.
 bool canPaintHeldRow(const BrushInput& in, const BrushAnchor& anchor);
 
-/// Paints the pixels [first, end) of row y, all of one anchor, to the same bits as brushColourAt
-/// and several times faster: positions, footprints and probes are worked out for many pixels at a
-/// time, so that they run in vector registers; only the strip's lookups go pixel by pixel.
+/// Paints the pixels [first, end) of row y, all of one anchor, to the colours of brushColourAt
+/// within a few roundings (2e-6 of the brightest texel) and several times faster: positions,
+/// footprints and probes are worked out for many pixels at a time, so that they run in vector
+/// registers; only the strip's lookups go pixel by pixel.
 void paintHeldRow(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,
                   ColourRows& out);
 

@@ -99,11 +99,11 @@ void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
     const V3f along = strokeDirection(anchor.points[place.point + static_cast<size_t>(i)], pixel);
     for (int k = 0; k < 3; ++k) parts[k] += share * along.dot(axes[k]) * along.dot(axes[k]);
   }
-  const float sum = parts[0] + parts[1] + parts[2];
+  const float largest = std::max(std::max(parts[0], parts[1]), parts[2]);
   const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
   const V3f q = pixel.position - anchor.object.origin;
   for (int k = 0; k < 3; ++k) {
-    const float excess = parts[k] / sum - axisThreshold;
+    const float excess = parts[k] / largest - axisThreshold;
     if (!(excess > 0.0f)) continue;
     const float weight = excess * excess;
     const auto add = [&](float unit, float offset, float share) {

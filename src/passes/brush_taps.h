@@ -10,8 +10,9 @@ namespace kagefude {
 
 /// Keeps the patterns of the object's three axes from showing the same strokes side by side.
 inline constexpr float axisOffset[3] = {0.0f, 0.381966f, 0.763932f};
-/// Share of the squared stroke direction below which an axis is not read at all.
-inline constexpr float axisThreshold = 0.2f;
+/// Share of the largest axis's squared part below which another axis is not read at all: two
+/// patterns lie over each other within 7 degrees of the diagonal only.
+inline constexpr float axisThreshold = 0.6f;
 /// Distance from the light axis, in mapping distances, within which the three axes weigh alike.
 inline constexpr float heldNearAxis = 0.05f;
 

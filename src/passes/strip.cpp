@@ -34,29 +34,37 @@ void shrinkLine(int from, int to, const Read& read, const Write& write) {
   }
 }
 
-void addRowMeans(Strip::Level& level) {
-  level.rowMeans = Plane<Rgba>(1, level.height);
-  for (int y = 0; y < level.height; ++y)
+// One level while the chain is being built.
+using Texels = Plane<Rgba>;
+
+Texels shrink(const Texels& fine) {
+  const int width = std::max(1, fine.width() / 2), height = std::max(1, fine.height() / 2);
+  Texels narrow(width, fine.height()), coarse(width, height);
+  for (int y = 0; y < fine.height(); ++y)
     shrinkLine(
-        level.width, 1, [&](int x) { return level.texels(x, y); },
-        [&](int, Rgba mean) { level.rowMeans(0, y) = mean; });
+        fine.width(), width, [&](int x) { return fine(x, y); },
+        [&](int x, Rgba c) { narrow(x, y) = c; });
+  for (int x = 0; x < width; ++x)
+    shrinkLine(
+        fine.height(), height, [&](int y) { return narrow(x, y); },
+        [&](int y, Rgba c) { coarse(x, y) = c; });
+  return coarse;
 }
 
-Strip::Level shrink(const Strip::Level& fine) {
-  Strip::Level coarse;
-  coarse.width = std::max(1, fine.width / 2);
-  coarse.height = std::max(1, fine.height / 2);
-  Plane<Rgba> narrow(coarse.width, fine.height);
-  for (int y = 0; y < fine.height; ++y)
-    shrinkLine(
-        fine.width, coarse.width, [&](int x) { return fine.texels(x, y); },
-        [&](int x, Rgba c) { narrow(x, y) = c; });
-  coarse.texels = Plane<Rgba>(coarse.width, coarse.height);
-  for (int x = 0; x < coarse.width; ++x)
-    shrinkLine(
-        fine.height, coarse.height, [&](int y) { return narrow(x, y); },
-        [&](int y, Rgba c) { coarse.texels(x, y) = c; });
-  return coarse;
+// Lays the levels one behind the other into the strip's pool.
+Strip packed(const std::vector<Texels>& chain) {
+  size_t texels = 0;
+  for (const Texels& level : chain) texels += level.view().pixels();
+  Strip strip;
+  strip.pool = Plane<Rgba>(static_cast<int>(texels), 1);
+  Rgba* next = strip.pool.row(0);
+  for (const Texels& level : chain) {
+    strip.levels.push_back({level.width(), level.height(),
+                            static_cast<int>(next - strip.pool.row(0)),
+                            View<const Rgba>(next, level.width(), level.height())});
+    next = std::copy_n(level.row(0), level.view().pixels(), next);
+  }
+  return strip;
 }
 
 }  // namespace
@@ -67,23 +75,26 @@ Strip makeStrip(View<const float> r, View<const float> g, View<const float> b,
   if (r.width > largestSide || r.height > largestSide)
     throw InputError(fmt::format("the strip is {}x{}; at most {} pixels a side are allowed",
                                  r.width, r.height, largestSide));
-  Strip strip;
-  Strip::Level full;
-  full.width = r.width;
-  full.height = r.height;
-  full.texels = Plane<Rgba>(r.width, r.height);
+  std::vector<Texels> chain;
+  chain.emplace_back(r.width, r.height);
   for (int y = 0; y < r.height; ++y)
     for (int x = 0; x < r.width; ++x)
-      full.texels(x, y) = finiteOrZero(Rgba{r(x, y), g(x, y), b(x, y), a.empty() ? 1.0f : a(x, y)});
-  strip.levels.push_back(std::move(full));
-  while (strip.width() > 0 && (strip.levels.back().width > 1 || strip.levels.back().height > 1))
-    strip.levels.push_back(shrink(strip.levels.back()));
-  for (Strip::Level& level : strip.levels) addRowMeans(level);
+      chain.front()(x, y) =
+          finiteOrZero(Rgba{r(x, y), g(x, y), b(x, y), a.empty() ? 1.0f : a(x, y)});
+  while (chain.back().width() > 1 || chain.back().height() > 1)
+    chain.push_back(shrink(chain.back()));
+  Strip strip = packed(chain);
+  strip.opaque = a.empty();
+  strip.means = Plane<Rgba>(r.height, 1);
+  for (int y = 0; y < r.height; ++y)
+    shrinkLine(
+        r.width, 1, [&](int x) { return chain.front()(x, y); },
+        [&](int, Rgba mean) { strip.means(y, 0) = mean; });
   return strip;
 }
 
 Rgba stripBilinear(const Strip& strip, float u, float v) {
-  return bilinearTexels(strip.levels.front(), u - std::floor(u), v);
+  return bilinearTexels(strip.levels.front(), fractionOf(u), v);
 }
 
 Rgba stripFiltered(const Strip& strip, float u, float v, const Footprint& footprint,
@@ -91,9 +102,10 @@ Rgba stripFiltered(const Strip& strip, float u, float v, const Footprint& footpr
   return lookUp(strip, u, v, stripProbe(strip, footprint, maxProbes));
 }
 
-Rgba stripRowMean(const Strip& strip, float v, float dv) {
-  const float lod = log2Of(std::max(1.0f, std::fabs(dv) * static_cast<float>(strip.height())));
-  return rowMeanAt(strip, v, lod);
+Rgba stripRowMean(const Strip& strip, float v) {
+  const RowPlace row = rowPlace(v, strip.height());
+  const Rgba* mean = strip.means.row(0);
+  return mean[row.upper] + (mean[row.lower] - mean[row.upper]) * row.fraction;
 }
 
 }  // namespace kagefude

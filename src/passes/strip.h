@@ -22,10 +22,13 @@ struct Footprint {
 struct Strip {
   struct Level {
     int width = 0, height = 0;
-    Plane<Rgba> texels;    ///< row 0 is the brightest
-    Plane<Rgba> rowMeans;  ///< 1 x height
+    int offset = 0;           ///< of its first texel in `pool`
+    View<const Rgba> texels;  ///< row 0 is the brightest
   };
-  std::vector<Level> levels;
+  bool opaque = true;         ///< alpha is 1 everywhere
+  std::vector<Level> levels;  ///< full size first, 1 x 1 last
+  Plane<Rgba> pool;           ///< all levels' texels, one after the other
+  Plane<Rgba> means;          ///< the full size's row means, brightest first
 
   int width() const { return levels.front().width; }
   int height() const { return levels.front().height; }
@@ -48,7 +51,7 @@ Rgba stripBilinear(const Strip& strip, float u, float v);
 /// Against an average of many bilinear lookups: within about 0.02 of the strip's range (tested).
 Rgba stripFiltered(const Strip& strip, float u, float v, const Footprint& footprint, int maxProbes);
 
-/// Mean colour of the strip's row at v, smoothed over dv of the height (0: none).
-Rgba stripRowMean(const Strip& strip, float v, float dv);
+/// Mean colour of the strip's row at v, between the rows' centres linear.
+Rgba stripRowMean(const Strip& strip, float v);
 
 }  // namespace kagefude

@@ -17,64 +17,79 @@ struct StripProbe {
   int count = 1;
 };
 
-/// Bilinear lookup in one level; u in [0, 1), v clamped to the outermost rows' centres. A NaN reads
-/// the bottom row, left edge.
-inline Rgba bilinearTexels(const Strip::Level& level, float u, float v) {
-  const float x = u * static_cast<float>(level.width) - 0.5f;
-  const float highest = static_cast<float>(level.height - 1);
-  const float down = (1.0f - v) * static_cast<float>(level.height) - 0.5f;
-  const float y = down > 0.0f ? (down < highest ? down : highest) : (down <= 0.0f ? 0.0f : highest);
+/// u - floor(u) in [0, 1) without a call; u is taken as 0 beyond the reach of whole floats.
+inline float fractionOf(float u) {
+  const float safe = std::fabs(u) < 8388608.0f ? u : 0.0f;
+  const float whole = static_cast<float>(static_cast<int>(safe));
+  const float fraction = safe - whole;
+  const float positive = fraction + static_cast<float>(fraction < 0.0f);
+  // Rounding can lift a tiny negative u to 1 exactly.
+  return positive * static_cast<float>(positive < 1.0f);
+}
+
+/// Two neighbouring rows of a level, and the share of the lower one.
+struct RowPlace {
+  int upper = 0, lower = 0;
+  float fraction = 0;
+};
+
+/// Rows round v, clamped to the outermost rows' centres.
+inline RowPlace rowPlace(float v, int height) {
+  const float highest = static_cast<float>(height - 1);
+  const float down = (1.0f - v) * static_cast<float>(height) - 0.5f;
+  const float above = down > 0.0f ? down : 0.0f;
+  const float y = above < highest ? above : highest;
+  const int upper = static_cast<int>(y);
+  return {upper, upper + (upper + 1 < height), y - static_cast<float>(upper)};
+}
+
+/// Two neighbouring columns of a level that repeats, and the share of the right one; u in [0, 1).
+struct ColumnPlace {
+  int left = 0, right = 0;
+  float fraction = 0;
+};
+inline ColumnPlace columnPlace(float u, int width) {
+  const float x = u * static_cast<float>(width) - 0.5f;
   // Truncation of x + 1 is the floor, for x is above -1.
-  int x0 = static_cast<int>(x + 1.0f) - 1;
-  const int y0 = static_cast<int>(y);
-  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-  int x1 = x0 + 1;
-  x0 = x0 < 0 ? level.width - 1 : x0;
-  x1 = x1 >= level.width ? 0 : x1;
-  const Rgba* upper = level.texels.row(y0);
-  const Rgba* lower = level.texels.row(y0 + 1 < level.height ? y0 + 1 : y0);
-  const Rgba top = upper[x0] + (upper[x1] - upper[x0]) * fx;
-  const Rgba bottom = lower[x0] + (lower[x1] - lower[x0]) * fx;
+  const int left = static_cast<int>(x + 1.0f) - 1;
+  const float fraction = x - static_cast<float>(left);
+  return {left + width * (left < 0), (left + 1) * (left + 1 < width), fraction};
+}
+
+inline Rgba mixFour(const Rgba& a, const Rgba& b, const Rgba& c, const Rgba& d, float fx,
+                    float fy) {
+  const Rgba top = a + (b - a) * fx;
+  const Rgba bottom = c + (d - c) * fx;
   return top + (bottom - top) * fy;
+}
+
+/// Bilinear lookup in one level; u in [0, 1).
+inline Rgba bilinearTexels(const Strip::Level& level, float u, float v) {
+  const RowPlace row = rowPlace(v, level.height);
+  const ColumnPlace column = columnPlace(u, level.width);
+  const Rgba *upper = level.texels.row(row.upper), *lower = level.texels.row(row.lower);
+  return mixFour(upper[column.left], upper[column.right], lower[column.left], lower[column.right],
+                 column.fraction, row.fraction);
 }
 
 /// Trilinear lookup; lod <= 0 is the full-size level alone.
 inline Rgba trilinearTexels(const Strip& strip, float u, float v, float lod) {
-  const float wrapped = u - std::floor(u);
-  // Rounding can lift a tiny negative u to 1 exactly.
-  const float inside = wrapped < 1.0f ? wrapped : 0.0f;
+  const float inside = fractionOf(u);
   if (!(lod > 0.0f)) return bilinearTexels(strip.levels.front(), inside, v);
   const int last = static_cast<int>(strip.levels.size()) - 1;
   const float level = lod < static_cast<float>(last) ? lod : static_cast<float>(last);
   const int fine = static_cast<int>(level);
-  const Rgba a = bilinearTexels(strip.levels[fine], inside, v);
+  const Rgba a = bilinearTexels(strip.levels[static_cast<size_t>(fine)], inside, v);
   if (fine == last) return a;
-  const Rgba b = bilinearTexels(strip.levels[fine + 1], inside, v);
+  const Rgba b = bilinearTexels(strip.levels[static_cast<size_t>(fine) + 1], inside, v);
   return a + (b - a) * (level - static_cast<float>(fine));
-}
-
-/// Row mean at v in one level or between two, as trilinearTexels.
-inline Rgba rowMeanAt(const Strip& strip, float v, float lod) {
-  const int last = static_cast<int>(strip.levels.size()) - 1;
-  const auto at = [v](const Strip::Level& level) {
-    const float highest = static_cast<float>(level.height - 1);
-    const float down = (1.0f - v) * static_cast<float>(level.height) - 0.5f;
-    const float y = down > 0.0f ? (down < highest ? down : highest) : 0.0f;
-    const int y0 = static_cast<int>(y);
-    const Rgba a = level.rowMeans(0, y0);
-    return a + (level.rowMeans(0, std::min(y0 + 1, level.height - 1)) - a) *
-                   (y - static_cast<float>(y0));
-  };
-  if (!(lod > 0.0f)) return at(strip.levels.front());
-  const float level = lod < static_cast<float>(last) ? lod : static_cast<float>(last);
-  const int fine = static_cast<int>(level);
-  const Rgba a = at(strip.levels[fine]);
-  return fine == last ? a : a + (at(strip.levels[fine + 1]) - a) * (level - float(fine));
 }
 
 /// Width in texels up to which bilinear interpolation alone averages enough: its tent has the
 /// spread of a box of this width.
 inline constexpr float bilinearWidth = 1.41421356f;
+/// Share of a probe's width that may stay unread at the long axis's ends.
+inline constexpr float probeTolerance = 0.25f;
 
 /// The ellipse that the unit pixel covers on the strip, from the matrix whose columns are the two
 /// footprint vectors in texels (ux, vx), (uy, vy): its long axis is split into probes, its short
@@ -90,10 +105,11 @@ inline void probeEllipse(float ux, float vx, float uy, float vy, float width, fl
   const float area = std::fabs(ux * vy - uy * vx);
   const float narrow = large ? area / longest : 0.0f;
   const float shortest = narrow > bilinearWidth ? narrow : bilinearWidth;
-  const float wanted = large ? std::ceil(longest / shortest) : 1.0f;
+  const float wanted = large ? std::ceil(longest / shortest - probeTolerance) : 1.0f;
   probes = wanted < maxProbes ? wanted : maxProbes;
   const float share = longest / probes;
-  const float level = log2Of(large ? (shortest > share ? shortest : share) : 1.0f) - 0.5f;
+  const float reach = share * (1.0f / (1.0f + probeTolerance));
+  const float level = log2Of(large ? (shortest > reach ? shortest : reach) : 1.0f) - 0.5f;
   lod = level > 1e-6f ? level : 0.0f;
   // Of the two expressions for the long axis's direction, the one without cancellation.
   const float du = a >= c ? 0.5f * (a - c + spread) : b;

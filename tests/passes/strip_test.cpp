@@ -51,13 +51,10 @@ TEST(Strip, EveryLevelKeepsTheMeanAlsoAtOddSizes) {
   for (int y = 0; y < 23; ++y)
     for (int x = 0; x < 37; ++x) mean += strip.levels[0].texels(x, y)[1] / (37.0 * 23.0);
   for (const Strip::Level& level : strip.levels) {
-    double sum = 0, rows = 0;
-    for (int y = 0; y < level.height; ++y) {
-      rows += level.rowMeans(0, y)[1];
+    double sum = 0;
+    for (int y = 0; y < level.height; ++y)
       for (int x = 0; x < level.width; ++x) sum += level.texels(x, y)[1];
-    }
     EXPECT_NEAR(sum / (level.width * level.height), mean, 1e-5);
-    EXPECT_NEAR(rows / level.height, mean, 1e-5);
   }
   EXPECT_EQ(strip.levels.back().width, 1);
   EXPECT_EQ(strip.levels.back().height, 1);
@@ -127,9 +124,9 @@ TEST(Strip, RowMeanByHand) {
   values(0, 1) = 5;
   values(1, 1) = 9;
   const Strip strip = stripOf(values);
-  EXPECT_FLOAT_EQ(stripRowMean(strip, 1, 0)[0], 2.0f);
-  EXPECT_FLOAT_EQ(stripRowMean(strip, 0, 0)[0], 7.0f);
-  EXPECT_FLOAT_EQ(stripRowMean(strip, 1, 1)[0], 4.5f) << "smoothed over the whole height";
+  EXPECT_FLOAT_EQ(stripRowMean(strip, 1)[0], 2.0f);
+  EXPECT_FLOAT_EQ(stripRowMean(strip, 0)[0], 7.0f);
+  EXPECT_FLOAT_EQ(stripRowMean(strip, 0.5f)[0], 4.5f);
 }
 
 TEST(Strip, EmptyAndBrokenInput) {
