@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "image/parallel.h"
 #include "passes/pixel_boxes.h"
+#include "passes/surface_sampler.h"
 
 namespace kagefude {
 namespace {
 
 /// Lists up to this length are tested pixel by pixel at once rather than cut down further.
-constexpr int shortList = 6;
+constexpr int shortList = 48;
 constexpr float roundingBias = 4e-6f;
 
 float biasOf(float pixelSize, float reach, const CoverageParams& params) {
@@ -46,7 +48,7 @@ void quarter(const PixelBoxes& boxes, const V3f& apex, float bias, bool trustIns
     PointBox box;
     if (!boxes.around(part.x0, part.y0, part.x1, part.y1, box)) continue;
     WedgeList& kept = levels[level];
-    const float limit = trustInside ? bias : 1e30f;
+    const float limit = trustInside ? bias : undecided;
     const BoxState state = filterWedges(list, fromApex(box, apex), limit, kept);
     if (state == BoxState::touching)
       quarter(boxes, apex, bias, trustInside, part, kept, levels, level + 1, settle, leaf);
@@ -68,7 +70,7 @@ class TileShader {
     if (!boxes.around(tile.x0, tile.y0, tile.x1, tile.y1, tileBox_)) return;
     bias_ = biasOf(boxes.pixelSize(), boxes.reach(), params_);
     // With the receiver left out, whether a wedge counts depends on the pixel's object.
-    const float limit = params_.selfShadow ? bias_ : 1e30f;
+    const float limit = params_.selfShadow ? bias_ : undecided;
     const BoxState state = wedges_.gather(tileBox_, limit, tileList_);
     if (state != BoxState::touching) {
       settle(tile, state == BoxState::inside);
@@ -119,26 +121,44 @@ class CoverageShader : TileShader {
     PointBox expected;
     boxes.around(tileX, tileY, tileX + 1, tileY + 1, expected);
     const float bias = biasOf(surface_.pixelSize(x, y), boxes.reach(), params_);
-    const float limit = params_.selfShadow ? bias : 1e30f;
-    const BoxState state = filterWedges(list, fromApex(expected, wedges_.apex()), limit, near_);
-    if (state != BoxState::touching) {
-      result_(x, y) = state == BoxState::inside ? 1.0f : 0.0f;
-      return;
-    }
-    sampler_.sample(x, y, points_);
-    const PointBox box = points_.box();
-    const WedgeList* wedges = &near_;
-    if (!expected.contains(box)) {
-      if (wedges_.gather(box, 1e30f, near_) == BoxState::apart) {
-        result_(x, y) = 0.0f;
-        return;
-      }
-    }
-    result_(x, y) = cut(*wedges, bias);
+    const float limit = params_.selfShadow ? bias : undecided;
+    BoxState state = filterIndices(list, fromApex(expected, wedges_.apex()), limit, indices_);
+    FlatPixel flat;
+    if (state == BoxState::touching && sampler_.locate(x, y, flat)) state = judge(flat, list, bias);
+    result_(x, y) = state == BoxState::touching ? exact(expected, list, bias)
+                                                : (state == BoxState::inside ? 1.0f : 0.0f);
   }
 
-  /// Share of the present sub-pixels inside any of the wedges.
-  float cut(const WedgeList& wedges, float bias) {
+  /// Settles a flat pixel by its corners, and drops the wedges that it lies apart from.
+  BoxState judge(const FlatPixel& flat, const WedgeList& list, float bias) {
+    std::array<V3f, 4> corners = flat.corners;
+    for (V3f& corner : corners) corner -= wedges_.apex();
+    size_t kept = 0;
+    for (int i : indices_) {
+      if (!counts(list.id[i], flat.id)) continue;
+      const BoxState state = patchState(list.wedge(i), corners, bias);
+      if (state == BoxState::inside) return state;
+      if (state == BoxState::touching) indices_[kept++] = i;
+    }
+    indices_.resize(kept);
+    return kept == 0 ? BoxState::apart : BoxState::touching;
+  }
+
+  /// Cuts the located pixel at its sub-pixels.
+  float exact(const PointBox& expected, const WedgeList& list, float bias) {
+    sampler_.sample(points_);
+    if (points_.present == 0) return 0.0f;
+    const PointBox box = points_.box();
+    if (expected.contains(box)) return cut(list, bias);
+    // A thin surface between the pixels' centres lies outside of what P led to expect.
+    wedges_.gather(box, undecided, near_);
+    indices_.resize(static_cast<size_t>(near_.count));
+    std::iota(indices_.begin(), indices_.end(), 0);
+    return cut(near_, bias);
+  }
+
+  /// Share of the present sub-pixels inside any of the wedges that indices_ names.
+  float cut(const WedgeList& list, float bias) {
     const V3f apex = wedges_.apex();
     for (int k = 0; k < 64; ++k) {
       points_.x[k] -= apex.x;
@@ -146,14 +166,14 @@ class CoverageShader : TileShader {
       points_.z[k] -= apex.z;
     }
     uint64_t shaded = 0;
-    for (int i = 0; i < wedges.count && (shaded & points_.present) != points_.present; ++i) {
-      uint64_t mask = wedgeMask(wedges.wedge(i), points_.x, points_.y, points_.z, bias);
-      if (!params_.selfShadow && mask != 0) mask &= ~own(wedges.id[i]);
+    for (int i : indices_) {
+      uint64_t mask = wedgeMask(list.wedge(i), points_.x, points_.y, points_.z, bias);
+      if (!params_.selfShadow && mask != 0) mask &= ~own(list.id[i]);
       shaded |= mask;
+      if ((shaded & points_.present) == points_.present) return 1.0f;
     }
-    const int seen = std::popcount(points_.present);
-    const int hidden = std::popcount(shaded & points_.present);
-    return seen == 0 ? 0.0f : static_cast<float>(hidden) / static_cast<float>(seen);
+    return static_cast<float>(std::popcount(shaded & points_.present)) /
+           static_cast<float>(std::popcount(points_.present));
   }
 
   uint64_t own(uint32_t id) const {
@@ -167,6 +187,7 @@ class CoverageShader : TileShader {
   View<float> result_;
   SubpixelPoints points_;
   WedgeList near_;
+  std::vector<int> indices_;
 };
 
 class MaskShader : TileShader {

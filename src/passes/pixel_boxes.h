@@ -3,6 +3,7 @@
 #include <array>
 
 #include "passes/seen_surface.h"
+#include "passes/shadow_wedges.h"
 
 namespace kagefude {
 
