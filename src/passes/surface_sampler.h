@@ -18,8 +18,11 @@ struct SubpixelPoints {
   uint32_t id[64];
   uint64_t present = 0;  ///< sub-pixels that show a surface
 
-  /// Box round the present points; call it only when there are some.
-  PointBox box() const;
+  /// Box round the points of a group that is not empty.
+  PointBox box(uint64_t group) const;
+  /// The present points before the widest gap in distance from the eye, when it is a third of
+  /// their range or more, as between two surfaces; else all present points.
+  uint64_t beforeGap() const;
 };
 
 /// A pixel that shows one flat surface: its four corners on it, in order, relative to the eye.
