@@ -112,18 +112,16 @@ CasterMesh readObj(const fs::path& path) {
 
 FrameCasters readCasters(const fs::path& sidecar, const std::map<std::string, uint32_t>& idOf) {
   FrameCasters result;
-  std::map<std::string, std::pair<CasterMesh, CasterFaults>> files;
+  std::map<std::string, CasterMesh> files;
   for (const CasterEntry& entry : readCasterEntries(sidecar)) {
     const auto [place, isNew] = files.try_emplace(entry.file);
-    auto& [mesh, faults] = place->second;
-    if (isNew) {
-      mesh = readObj(sidecar.parent_path() / entry.file);
-      faults = cleanCasterMesh(mesh);
-    }
-    CasterMesh world = placed(mesh, entry.worldFromObject);
+    if (isNew) place->second = readObj(sidecar.parent_path() / entry.file);
+    CasterMesh world = placed(place->second, entry.worldFromObject);
     world.object = entry.object;
     const auto id = idOf.find(entry.object);
     world.id = id == idOf.end() ? 0 : id->second;
+    // After placing: a matrix may flatten a mesh or throw it out of range.
+    const CasterFaults faults = cleanCasterMesh(world);
     if (faults.dropped() > 0)
       result.warnings.push_back(
           fmt::format("{}: {}", sidecar.string(), faultWarning(world, faults)));
