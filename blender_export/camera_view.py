@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The shot's camera: its matrices, a copy of it that is everywhere in focus, and what it sees."""
+
+from dataclasses import dataclass
+
+from mathutils import Matrix, Vector
+
+from .errors import ExportError
+from .export_scenes import PREFIX, resolution
+
+PROBE_COLUMNS, PROBE_ROWS = 48, 27
+
+
+@dataclass
+class CameraView:
+    kind: str
+    world_from_camera: Matrix
+    clip_from_camera: Matrix
+
+    @property
+    def clip_from_world(self):
+        return self.clip_from_camera @ self.world_from_camera.inverted()
+
+
+def read_camera(scene, depsgraph):
+    """The scene's camera at the evaluated frame; ExportError where it has none or a panoramic one."""
+    if scene.camera is None:
+        raise ExportError(f"scene '{scene.name}' has no camera")
+    camera = scene.camera.evaluated_get(depsgraph)
+    if camera.type != 'CAMERA' or camera.data.type not in {'PERSP', 'ORTHO'}:
+        raise ExportError(f"camera '{camera.name}' is neither perspective nor orthographic")
+    width, height = resolution(scene)
+    clip = camera.calc_matrix_camera(depsgraph, x=width, y=height,
+                                     scale_x=scene.render.pixel_aspect_x,
+                                     scale_y=scene.render.pixel_aspect_y)
+    location, rotation, _ = camera.matrix_world.decompose()
+    world = Matrix.Translation(location) @ rotation.to_matrix().to_4x4()
+    return CameraView({'PERSP': "perspective", 'ORTHO': "orthographic"}[camera.data.type],
+                      world, clip)
+
+
+class SharpCameras:
+    """Copies of the artist's cameras without depth of field, animated as they are.
+
+    They move as the originals do, which the motion vectors need.
+    """
+
+    def __init__(self):
+        self._copies = {}
+
+    def copy_of(self, camera, scene):
+        if camera.name_full not in self._copies:
+            sharp = camera.copy()
+            sharp.data = camera.data.copy()
+            sharp.name = PREFIX + camera.name
+            sharp.data.dof.use_dof = False
+            scene.collection.objects.link(sharp)
+            self._copies[camera.name_full] = sharp
+        return self._copies[camera.name_full]
+
+
+def visible_points(scene, depsgraph, view):
+    """Surface points that the camera sees, on a coarse grid of rays over the whole frame."""
+    world_from_clip = view.clip_from_world.inverted()
+    points = []
+    for row in range(PROBE_ROWS + 1):
+        for column in range(PROBE_COLUMNS + 1):
+            x, y = 2.0 * column / PROBE_COLUMNS - 1.0, 2.0 * row / PROBE_ROWS - 1.0
+            start = _unproject(world_from_clip, x, y, -1.0)
+            end = _unproject(world_from_clip, x, y, 1.0)
+            hit, place, *_ = scene.ray_cast(depsgraph, start, (end - start).normalized(),
+                                            distance=(end - start).length)
+            if hit:
+                points.append(tuple(place))
+    return points
+
+
+def hidden_points(scene, depsgraph, points, state, reach):
+    """Those of the points that `state`'s light does not reach.
+
+    `reach` is how far back along a sun's light a blocker may be.
+    """
+    return [point for point in points
+            if _is_hidden(scene, depsgraph, Vector(point), state, reach)]
+
+
+def _is_hidden(scene, depsgraph, point, state, reach):
+    if state.kind == "sun":
+        to_light, distance = -Vector(state.direction), reach
+    else:
+        way = Vector(state.position) - point
+        to_light, distance = way.normalized(), way.length
+    start = point + to_light * (1e-4 * distance)
+    return scene.ray_cast(depsgraph, start, to_light, distance=distance * 0.9998)[0]
+
+
+def _unproject(world_from_clip, x, y, z):
+    clip = world_from_clip @ Vector((x, y, z, 1.0))
+    return clip.xyz / clip.w

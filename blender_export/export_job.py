@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The export of a range of frames: sets up the scenes once, then renders and describes each frame."""
+
+import os
+
+import bpy
+
+from . import camera_view, exr_header, export_scenes, frame_image, shot, sidecar
+from .light_depth import LightDepth, plan_view
+from .light_rig import LightRig
+from .output_names import light_keys, parse_output
+from .subject import bounding_sphere, corners_of, subject_things
+
+
+class ExportJob:
+    """One run; `say` takes the lines meant for the user."""
+
+    def __init__(self, options, say):
+        self.options, self.say = options, say
+        self.scene = bpy.context.scene
+        self.frames = options.frames or [self.scene.frame_current]
+        self.names = parse_output(options.output, len(self.frames))
+        self._set_up()
+
+    def _set_up(self):
+        scene, options = self.scene, self.options
+        view_layer = shot.active_view_layer(scene)
+        objects = shot.rendered_objects(view_layer)
+        lights = shot.exported_lights(objects, options.lights)
+        subjects = [item for item in objects if item.type not in {'LIGHT', 'CAMERA', 'LIGHT_PROBE'}]
+        shot.refuse_instanced_lights(subjects)
+        shot.evaluate_as_rendered(objects, view_layer)
+        self.objects = objects
+        self.materials = sorted(bpy.data.materials, key=lambda material: material.name)
+        shot.give_distinct_indices(shot.all_geometry())
+        shot.give_distinct_indices(self.materials)
+        notes = export_scenes.prepare_beauty(scene, view_layer, options)
+        self.data = export_scenes.DataScene(scene, subjects)
+        keys = light_keys([light.name for light in lights])
+        self.rigs = [LightRig(light, keys[light.name], options, self.data) for light in lights]
+        self.data.finish()
+        self.writer, more = frame_image.shot_writer(scene, view_layer, self.data)
+        self.depth = LightDepth(scene, subjects, self.data.material, options.depth_size)
+        self.cameras = camera_view.SharpCameras()
+        for note in notes + more:
+            self.say(f"note: {note}")
+
+    def run(self):
+        os.makedirs(self.names.folder, exist_ok=True)
+        steps = len(self.frames) * (1 + len(self.rigs))
+        done = 0
+        for number, frame in enumerate(self.frames, 1):
+            self.say(f"frame {frame} ({number} of {len(self.frames)})")
+            for _ in self._export_frame(frame):
+                done += 1
+                self.say(f"Progress: {100 * done // steps}%")
+
+    def _export_frame(self, frame):
+        """Renders one frame, yielding after each image; the files appear together at the end."""
+        self.scene.frame_set(frame)
+        shot.show_what_renders(self.objects)
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        view = camera_view.read_camera(self.scene, depsgraph)
+        entries, things = sidecar.describe_objects(depsgraph)
+        subject = bounding_sphere(corners_of(subject_things(things, view.clip_from_world)))
+        placed = [rig.place(depsgraph, subject) for rig in self.rigs]
+        views = [self._light_view(frame, state, depsgraph, view, things) for state, _ in placed]
+        self.data.scene.camera = self.cameras.copy_of(self.scene.camera, self.data.scene)
+        image = os.path.join(self.names.folder, self.names.image(frame))
+        parts = [(frame_image.render(self.writer, frame, image), image)]
+        yield
+        for rig, (_, entry), light_view in zip(self.rigs, placed, views):
+            name = self.names.light_depth(rig.key, frame)
+            path = os.path.join(self.names.folder, name)
+            part = self.depth.render(light_view, frame, path)
+            parts.append((part, path))
+            entry["depth_map"] = sidecar.describe_depth_map(
+                light_view, name, exr_header.channel_names(part)[0], self.options.depth_size)
+            yield
+        document = self._document(frame, view, [entry for _, entry in placed], entries)
+        sidecar.check(document)
+        parts.append(self._write_sidecar(frame, document))
+        for part, path in parts:
+            os.replace(part, path)
+
+    def _light_view(self, frame, state, depsgraph, camera, things):
+        light_view = plan_view(state, self.scene, depsgraph, camera, things)
+        if light_view.cut:
+            self.say(f"note: frame {frame}: the depth map of light '{state.name}' cannot show all "
+                     f"that the camera sees; what is outside it counts as lit")
+        return light_view
+
+    def _document(self, frame, view, lights, objects):
+        render = self.scene.render
+        return {
+            "kagefude": sidecar.VERSION, "frame": frame, "fps": render.fps / render.fps_base,
+            "image": self.names.image(frame), "resolution": list(export_scenes.resolution(self.scene)),
+            "pixel_aspect": render.pixel_aspect_x / render.pixel_aspect_y,
+            "scale": self.options.scale, "layers": {"data": "data", "beauty": "beauty"},
+            "camera": sidecar.describe_camera(view), "lights": lights, "objects": objects,
+            "materials": sidecar.describe_materials(self.materials)}
+
+    def _write_sidecar(self, frame, document):
+        name = self.names.sidecar(frame)
+        part = os.path.join(self.names.folder, f".{name}.part")
+        with open(part, "w", encoding="utf-8") as file:
+            file.write(sidecar.text(document))
+        return part, os.path.join(self.names.folder, name)

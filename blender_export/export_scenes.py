@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The temporary scenes that one frame is rendered from.
+
+Data passes and masks need one sample at the pixel's centre, the beauty needs the artist's own
+samples and filter, and a pixel filter belongs to a scene. So there is a data scene beside the
+artist's, with one view layer for the data, one per mask and one per traced truth; and a writing
+scene whose compositor takes the layers of both and puts them into one multilayer EXR. A light's
+depth map is one more scene, seen from the light.
+"""
+
+import bpy
+
+from . import compat
+from .errors import ExportError
+
+DATA_PASSES = ("Normal", "Position", "Depth", "IndexOB", "IndexMA", "UV", "Vector", "DiffCol")
+NOT_BEAUTY = {"Alpha", "Depth", "Mist", "Position", "Normal", "UV", "Vector", "IndexOB", "IndexMA",
+              "Shadow"}
+PREFIX = "kagefude "
+
+
+def prepare_beauty(scene, view_layer, options):
+    """The artist's scene as it is, but one view layer, no compositing, and Cryptomatte on."""
+    notes = []
+    render_whole_frame(scene, options.scale)
+    for other in scene.view_layers:
+        other.use = other == view_layer
+    view_layer.use_pass_cryptomatte_object = True
+    view_layer.use_pass_cryptomatte_material = True
+    view_layer.pass_cryptomatte_depth = max(view_layer.pass_cryptomatte_depth, 2)
+    if scene.render.engine != 'CYCLES':
+        notes.append(f"the beauty is rendered with Cycles instead of {scene.render.engine}, which "
+                     f"needs a display")
+        scene.render.engine = 'CYCLES'
+    if scene.cycles.use_denoising and not compat.has_denoiser():
+        notes.append("the beauty is not denoised: this Blender is built without a denoiser")
+        scene.cycles.use_denoising = False
+    return notes
+
+
+def render_whole_frame(scene, scale):
+    render = scene.render
+    render.use_border = False
+    render.use_crop_to_border = False
+    render.use_multiview = False
+    render.use_compositing = False
+    render.use_sequencer = False
+    width, height = resolution(scene)
+    render.resolution_x, render.resolution_y = width * scale, height * scale
+    render.resolution_percentage = 100
+
+
+def resolution(scene):
+    share = scene.render.resolution_percentage / 100.0
+    return int(scene.render.resolution_x * share), int(scene.render.resolution_y * share)
+
+
+def exact_scene(artist_scene, name):
+    """A copy of the scene without contents that samples each pixel once, at its centre."""
+    scene = artist_scene.copy()
+    scene.name = PREFIX + name
+    scene.animation_data_clear()
+    scene.timeline_markers.clear()
+    scene.use_nodes = False
+    scene.world = None
+    for child in list(scene.collection.children):
+        scene.collection.children.unlink(child)
+    for item in list(scene.collection.objects):
+        scene.collection.objects.unlink(item)
+    compat.set_if_known(scene.render, engine='CYCLES', use_motion_blur=False, use_freestyle=False,
+                        film_transparent=False, use_single_layer=False, use_persistent_data=False)
+    compat.set_if_known(
+        scene.cycles, samples=1, use_adaptive_sampling=False, use_denoising=False, time_limit=0.0,
+        use_layer_samples='USE', max_bounces=0, seed=0, use_animated_seed=False,
+        # A box filter would sample each pixel at a random place, whatever its width.
+        pixel_filter_type='GAUSSIAN', filter_width=0.01,
+        # The default drops weak lights at random and fills the masks with noise.
+        light_sampling_threshold=0.0, use_light_tree=False)
+    return scene
+
+
+def replace_view_layers(scene, name):
+    """Leave the scene with one fresh view layer."""
+    fresh = scene.view_layers.new(name)
+    for old in list(scene.view_layers):
+        if old != fresh:
+            scene.view_layers.remove(old)
+    fresh.name = name
+    return fresh
+
+
+def link_collection(scene, name, objects):
+    collection = bpy.data.collections.new(PREFIX + name)
+    for item in objects:
+        collection.objects.link(item)
+    scene.collection.children.link(collection)
+    return collection
+
+
+def show_only(view_layer, collections):
+    for child in view_layer.layer_collection.children:
+        child.exclude = child.collection not in collections
+
+
+def plain_material():
+    """White diffuse: masks do not depend on gloss, emission, bumps or glass."""
+    material = bpy.data.materials.new(PREFIX + "mask")
+    material.use_nodes = True
+    nodes = material.node_tree.nodes
+    nodes.clear()
+    shader = nodes.new('ShaderNodeBsdfDiffuse')
+    shader.inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
+    material.node_tree.links.new(shader.outputs[0],
+                                 nodes.new('ShaderNodeOutputMaterial').inputs["Surface"])
+    return material
+
+
+def enable_data_passes(view_layer):
+    for name in ("normal", "position", "z", "object_index", "material_index", "uv", "vector",
+                 "diffuse_color"):
+        setattr(view_layer, "use_pass_" + name, True)
+
+
+class DataScene:
+    """Data layer, mask layers and truth layers, with their lamps."""
+
+    def __init__(self, artist_scene, subjects):
+        self.scene = exact_scene(artist_scene, "data")
+        self.subjects = link_collection(self.scene, "subjects", subjects)
+        self.material = plain_material()
+        self.layers = {}      # layer name -> (pass to read, threshold or None)
+        data = replace_view_layers(self.scene, "data")
+        data.samples = 1
+        enable_data_passes(data)
+        self._lamps = {data.name: None}
+
+    def add_shadow_layer(self, name, lamp, samples):
+        """A view layer lit by `lamp` alone, that holds how much of it each pixel sees."""
+        view_layer = self.scene.view_layers.new(name)
+        if view_layer.name != name:
+            raise ExportError(f"the layer name '{name}' cannot be used in Blender")
+        view_layer.samples = samples
+        view_layer.material_override = self.material
+        self.layers[name] = compat.enable_mask_pass(view_layer)
+        self._lamps[name] = link_collection(self.scene, name, [lamp])
+
+    def finish(self):
+        """Keep every lamp out of all layers but its own."""
+        for view_layer in self.scene.view_layers:
+            show_only(view_layer, [self.subjects, self._lamps[view_layer.name]])
+
+
+class Writer:
+    """A scene whose compositor gathers layers of other scenes into one multilayer EXR."""
+
+    def __init__(self, like, name):
+        self.scene = bpy.data.scenes.new(PREFIX + name)
+        render = self.scene.render
+        render.resolution_x, render.resolution_y = resolution(like)
+        render.resolution_percentage = 100
+        render.use_stamp_date = render.use_stamp_filename = render.use_stamp_render_time = False
+        self.scene.use_nodes = True
+        self.tree = self.scene.node_tree
+        self.tree.nodes.clear()
+        self.node = self.tree.nodes.new('CompositorNodeOutputFile')
+        self.node.format.file_format = 'OPEN_EXR_MULTILAYER'
+        self.node.format.color_depth = '32'
+        self.node.format.exr_codec = 'ZIP'
+        self.names = []
+
+    def source(self, scene, layer_name):
+        node = self.tree.nodes.new('CompositorNodeRLayers')
+        node.scene = scene
+        node.layer = layer_name
+        return node
+
+    def add(self, socket, name):
+        if self.names:
+            self.node.layer_slots.new(name)
+        else:
+            # The slot that a new node has; removing it would leak and make Blender end with an error.
+            self.node.layer_slots[0].name = name
+        self.tree.links.new(socket, self.node.inputs[-1])
+        self.names.append(name)
+
+    def add_pass(self, node, pass_name, name):
+        socket = compat.output_socket(node, pass_name)
+        if socket is None:
+            raise ExportError(f"Blender gives no {pass_name} pass for layer '{node.layer}'")
+        self.add(socket, name)
+
+    def add_mask(self, node, pass_name, threshold, name):
+        """One channel: the pass itself, or 1 where it is above `threshold`."""
+        value = compat.first_channel_of_colour(self.tree, compat.output_socket(node, pass_name))
+        if threshold is not None:
+            above = self.tree.nodes.new('CompositorNodeMath')
+            above.operation = 'GREATER_THAN'
+            above.inputs[1].default_value = threshold
+            self.tree.links.new(value, above.inputs[0])
+            value = above.outputs[0]
+        self.add(value, name)

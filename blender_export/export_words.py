@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel's settings as words of the headless exporter's command line."""
+
+
+def frame_range(settings, scene):
+    """The frame range that the panel asks for, as the command line writes it."""
+    if settings.frames == 'SCENE':
+        return f"{scene.frame_start}-{scene.frame_end}x{scene.frame_step}"
+    return settings.frame_list if settings.frames == 'LIST' else str(scene.frame_current)
+
+
+def export_words(settings, scene, output):
+    """Words after Blender's `--`; `output` is an absolute path pattern."""
+    masks = f"line:{settings.line_count}" if settings.masks == 'line' else settings.masks
+    words = ["--output", output, f"--frames={frame_range(settings, scene)}", "--masks", masks,
+             "--scale", str(settings.scale), "--depth-size", str(settings.depth_size)]
+    if settings.light:
+        words.append(f"--light={settings.light.name}")
+    if not settings.offset_auto:
+        words += ["--offset", repr(float(settings.offset))]
+    if settings.use_truth:
+        words += ["--truth", str(settings.truth_samples)]
+    return words

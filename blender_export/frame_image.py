@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which layers go into a frame's image, and how one image is rendered, checked and put in place."""
+
+import glob
+import os
+
+import bpy
+
+from . import compat, exr_header
+from .errors import ExportError
+from .export_scenes import DATA_PASSES, NOT_BEAUTY, Writer
+from .output_names import LONGEST_LAYER
+
+
+def shot_writer(beauty_scene, beauty_layer, data):
+    """The writer of a frame: data, Cryptomatte, beauty, masks and truth, and notes on what is left out."""
+    writer = Writer(beauty_scene, "shot")
+    node = writer.source(data.scene, "data")
+    for name in DATA_PASSES:
+        writer.add_pass(node, name, f"data.{name}")
+    notes = _add_beauty(writer, writer.source(beauty_scene, beauty_layer.name))
+    for layer, (pass_name, threshold) in data.layers.items():
+        writer.add_mask(writer.source(data.scene, layer), pass_name, threshold, layer)
+    return writer, notes
+
+
+def depth_writer(depth_scene):
+    writer = Writer(depth_scene, "light depth")
+    writer.add_pass(writer.source(depth_scene, "depth"), "Depth", "Depth")
+    return writer
+
+
+def _add_beauty(writer, node):
+    """The beauty with the light passes that the artist turned on; Cryptomatte goes to the data.
+
+    Cryptomatte comes from the beauty render, so that its coverage has the artist's filter and
+    samples and agrees with the edges of his picture.
+    """
+    notes = []
+    for socket in node.outputs:
+        name = compat.pass_name(socket.name)
+        if not socket.enabled or name in NOT_BEAUTY or name.startswith(("Denoising", "Noisy", "Debug")):
+            continue
+        layer = f"data.{name}" if name.startswith(("CryptoObject", "CryptoMaterial")) \
+            else f"beauty.{name}"
+        if len(layer.encode("utf-8")) > LONGEST_LAYER:
+            notes.append(f"the pass '{name}' is left out: its name is too long for Blender's "
+                         f"File Output node")
+        else:
+            writer.add(socket, layer)
+    return notes
+
+
+def render(writer, frame, path):
+    """Render `writer`'s sources at `frame` into a part file beside `path`; returns the part's path."""
+    folder, name = os.path.split(path)
+    base = os.path.join(folder, f".{name}.part")
+    remove_parts(base)
+    writer.node.base_path = base
+    writer.scene.frame_set(frame)
+    bpy.ops.render.render(scene=writer.scene.name)
+    parts = glob.glob(glob.escape(base) + "*")
+    if len(parts) != 1:
+        raise ExportError(f"frame {frame}: Blender wrote no image for {path}; see its messages "
+                          f"above")
+    _check_layers(parts[0], writer.names, frame)
+    return parts[0]
+
+
+def remove_parts(base):
+    for old in glob.glob(glob.escape(base) + "*"):
+        os.remove(old)
+
+
+def _check_layers(part, names, frame):
+    written = {channel.rpartition(".")[0] for channel in exr_header.channel_names(part)}
+    missing = [name for name in names if name not in written]
+    if missing:
+        raise ExportError(f"frame {frame}: Blender did not write the layer '{missing[0]}'")

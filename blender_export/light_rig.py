@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One exported light: its mask and truth layers in the data scene, moved into place per frame."""
+
+from . import compat, light_offset, mask_positions, vectors
+from .errors import ExportError
+from .light_state import (new_mask_lamp, new_truth_lamp, place_mask_lamp, place_truth_lamp,
+                          read_light, travel_direction, TYPES)
+from .output_names import mask_layer, truth_layer
+
+
+class LightRig:
+    def __init__(self, light, key, options, data):
+        self.light, self.key, self.options = light, key, options
+        self._refuse_what_cannot_work()
+        kind = TYPES[light.data.type]
+        self.mask_lamps = {}
+        for number in range(options.masks.count):
+            name = mask_layer(key, number)
+            self.mask_lamps[name] = new_mask_lamp(kind, name)
+            data.add_shadow_layer(name, self.mask_lamps[name], 1)
+        self.truth_lamp = None
+        if options.truth_samples:
+            self.truth_lamp = new_truth_lamp(light, truth_layer(key))
+            data.add_shadow_layer(truth_layer(key), self.truth_lamp, options.truth_samples)
+
+    def place(self, depsgraph, subject):
+        """Move the lamps to this frame's places; returns (light state, JSON entry)."""
+        evaluated = self.light.evaluated_get(depsgraph)
+        state = read_light(evaluated)
+        travel = travel_direction(state, subject.center)
+        if self.truth_lamp:
+            place_truth_lamp(self.truth_lamp, state, evaluated)
+        entry = {
+            "name": state.name, "type": state.kind, "position": list(state.position),
+            "direction": list(travel if state.kind == "point" else state.direction),
+            "radius": state.radius, "color": list(state.color), "energy": state.energy,
+            "subject": {"center": list(subject.center), "radius": subject.radius}}
+        if state.cone:
+            entry["cone"] = {"angle": state.cone[0], "blend": state.cone[1]}
+        if state.kind == "sun":
+            nominal = vectors.scale(state.direction, -4.0 * max(subject.radius, 1.0))
+            entry["position"] = list(vectors.add(subject.center, nominal))
+        self._place_masks(state, travel, subject, entry)
+        if self.truth_lamp:
+            entry["truth_layer"] = truth_layer(self.key)
+            entry["truth_samples"] = self.options.truth_samples
+        return state, entry
+
+    def _place_masks(self, state, travel, subject, entry):
+        masks = self.options.masks
+        places = mask_positions.places_on_light(masks, travel, state.surface_axes)
+        offset = self.options.offset or self._auto_offset(state, subject)
+        samples = []
+        for (layer, lamp), place in zip(self.mask_lamps.items(), places.places):
+            sample = {"layer": layer, "uv": list(place)}
+            direction = None
+            if state.kind == "sun":
+                direction = mask_positions.mask_direction(travel, places, place, offset)
+                sample["direction"] = list(direction)
+            else:
+                position = mask_positions.mask_position(state.position, places, place, offset)
+                sample["position"] = list(position)
+            place_mask_lamp(lamp, state, sample.get("position", entry["position"]), direction)
+            samples.append(sample)
+        entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples}
+        entry["axes"] = {"u": list(places.u_axis), "v": list(places.v_axis)}
+
+    def _auto_offset(self, state, subject):
+        distance = vectors.length(vectors.subtract(state.position, subject.center))
+        return light_offset.auto_offset(self.options.masks.kind, state.name, state.radius,
+                                        state.half_length, distance, subject.radius)
+
+    def _refuse_what_cannot_work(self):
+        if self.options.masks.kind == "pair" and self.light.data.type == 'SUN':
+            raise ExportError(f"light '{self.light.name}' is a sun, whose shadows do not change "
+                              f"along its axis, so a pair of masks would be twice the same; use "
+                              f"--masks line:5 or --masks disc:5")
+        if self.options.truth_samples and not compat.has_shadow_pass():
+            raise ExportError("the traced truth needs the Shadow pass of Cycles, which this "
+                              "Blender no longer has; leave out --truth, or use Blender 3")

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where on a light its hard shadow masks are taken from.
+
+Every arrangement gives two unit axes u, v in the world and a place (u, v) per mask in units of
+the offset. With `travel` the direction from the light to its subject, u x v = travel for lines and
+discs, so that a ring runs counter-clockwise as seen from the subject. For a pair, u is the axis
+itself, pointing away from the subject (000 eq. 3.1).
+"""
+
+import math
+from dataclasses import dataclass
+
+from . import vectors
+from .arguments import DISC_RINGS
+
+
+@dataclass
+class MaskPlaces:
+    u_axis: tuple
+    v_axis: tuple
+    places: list  # (u, v) per mask
+
+
+def places_on_light(arrangement, travel, surface_axes=None):
+    """Axes and places for an arrangement.
+
+    `surface_axes` are the two unit axes of a flat light, the longer first, which lines and discs
+    then follow; a light without a surface gets axes that face the subject: level for a line,
+    turning smoothly with the light for a disc (one jump, where the light is straight below).
+    """
+    if arrangement.kind == "pair":
+        away = vectors.scale(travel, -1.0)
+        side, _ = vectors.perpendicular_frame(away)
+        return MaskPlaces(away, side, [(1.0, 0.0), (-1.0, 0.0)])
+    if surface_axes:
+        u_axis, v_axis = _facing(surface_axes, travel)
+    elif arrangement.kind == "line":
+        u_axis, v_axis = level_frame(travel)
+    else:
+        u_axis, back = vectors.perpendicular_frame(vectors.scale(travel, -1.0))
+        v_axis = vectors.scale(back, -1.0)
+    places = _line(arrangement.count) if arrangement.kind == "line" else _disc(arrangement.count)
+    return MaskPlaces(u_axis, v_axis, places)
+
+
+def level_frame(travel):
+    """u level and across the view from the subject, v = travel x u; along Y where travel is upright."""
+    u_axis = vectors.normalize(vectors.cross((0.0, 0.0, 1.0), travel), (1.0, 0.0, 0.0))
+    return u_axis, vectors.cross(travel, u_axis)
+
+
+def mask_position(centre, places, place, offset):
+    """World position of a mask: `centre` + offset (u u_axis + v v_axis) (000 eq. 3.1, 3.2)."""
+    u, v = place
+    along = vectors.add(vectors.scale(places.u_axis, u), vectors.scale(places.v_axis, v))
+    return vectors.add(centre, vectors.scale(along, offset))
+
+
+def mask_direction(travel, places, place, offset):
+    """Direction of a sun's light from a place on its disc; `offset` is a tangent."""
+    return vectors.normalize(mask_position(travel, places, place, -offset))
+
+
+def _facing(surface_axes, travel):
+    u_axis, v_axis = surface_axes
+    if vectors.dot(vectors.cross(u_axis, v_axis), travel) < 0.0:
+        v_axis = vectors.scale(v_axis, -1.0)
+    return u_axis, v_axis
+
+
+def _line(count):
+    return [(2.0 * number / (count - 1) - 1.0, 0.0) for number in range(count)]
+
+
+def _disc(count):
+    ring = DISC_RINGS[count]
+    angles = [2.0 * math.pi * number / ring for number in range(ring)]
+    return [(0.0, 0.0)] + [(math.cos(angle), math.sin(angle)) for angle in angles]

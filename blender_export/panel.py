@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel in the render properties, its settings, and the add-on's registration."""
+
+import bpy
+from bpy.props import (BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty,
+                       StringProperty)
+
+from . import operators
+from .arguments import MOST_LINE_MASKS
+
+
+class KagefudeSettings(bpy.types.PropertyGroup):
+    light: PointerProperty(
+        name="Light", type=bpy.types.Object, poll=lambda _, item: item.type == 'LIGHT',
+        description="Light to take shadow masks from; empty for all lights that cast shadows")
+    masks: EnumProperty(
+        name="Masks", default='disc:9', description="Where on the light the shadow masks lie",
+        items=(('disc:9', "Disc of 9", "Centre and ring of eight: the best soft shadows"),
+               ('disc:5', "Disc of 5", "Centre and ring of four"),
+               ('line', "Line", "Along a tube light, or across the view of the subject"),
+               ('pair', "Pair", "Two on the axis to the subject; not for suns")))
+    line_count: IntProperty(name="Masks on the Line", default=5, min=2, max=MOST_LINE_MASKS)
+    offset_auto: BoolProperty(
+        name="Offset from Light", default=True,
+        description="Work the masks' offset out from the light's own size")
+    offset: FloatProperty(
+        name="Offset", default=0.2, min=0.0001, soft_max=10.0,
+        description="Distance of the outermost masks from the light's centre, in world units; "
+                    "for a sun the tangent of the angle")
+    frames: EnumProperty(
+        name="Frames", default='CURRENT',
+        items=(('CURRENT', "Current", "The current frame"),
+               ('SCENE', "Scene Range", "From the scene's start to its end"),
+               ('LIST', "List", "A list such as 1-24, 1-24x2 or 1,5,9")))
+    frame_list: StringProperty(name="List", default="1-24",
+                               description="Frames such as 1-24, 1-24x2 or 1,5,9")
+    output: StringProperty(
+        name="Output", default="//kagefude/shot.####.exr", subtype='FILE_PATH',
+        description="Where to write; #### becomes the frame number")
+    use_truth: BoolProperty(
+        name="Traced Truth", default=False,
+        description="Also trace each light at its real size, to compare with")
+    truth_samples: IntProperty(name="Samples", default=512, min=1, max=65536)
+    scale: IntProperty(
+        name="Scale", default=1, min=1, max=4,
+        description="Render so many times the resolution, for smoother edges after comping")
+    depth_size: IntProperty(name="Depth Map Size", default=1024, min=16, max=16384,
+                            subtype='PIXEL', description="Side of the light-depth maps")
+
+
+class KAGEFUDE_PT_export(bpy.types.Panel):
+    bl_idname = "KAGEFUDE_PT_export"
+    bl_label = "kagefude"
+    bl_space_type = 'PROPERTIES'
+    bl_region_type = 'WINDOW'
+    bl_context = "render"
+    bl_options = {'DEFAULT_CLOSED'}
+
+    def draw(self, context):
+        settings = context.scene.kagefude
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        column = layout.column()
+        column.prop(settings, "light")
+        column.prop(settings, "masks")
+        if settings.masks == 'line':
+            column.prop(settings, "line_count")
+        column.prop(settings, "offset_auto")
+        if not settings.offset_auto:
+            column.prop(settings, "offset")
+        column = layout.column()
+        column.prop(settings, "frames")
+        if settings.frames == 'LIST':
+            column.prop(settings, "frame_list")
+        column.prop(settings, "output")
+        column.prop(settings, "scale")
+        column.prop(settings, "depth_size")
+        column = layout.column()
+        column.prop(settings, "use_truth")
+        if settings.use_truth:
+            column.prop(settings, "truth_samples")
+        self._draw_export(context)
+
+    def _draw_export(self, context):
+        percent = context.window_manager.kagefude_percent
+        if percent < 0:
+            self.layout.operator("kagefude.export", icon='RENDER_STILL')
+            return
+        row = self.layout.row()
+        row.label(text=f"Exporting: {percent} %")
+        row.operator("kagefude.cancel", icon='CANCEL')
+
+
+CLASSES = (KagefudeSettings, KAGEFUDE_PT_export, *operators.CLASSES)
+
+
+def register():
+    for item in CLASSES:
+        bpy.utils.register_class(item)
+    bpy.types.Scene.kagefude = PointerProperty(type=KagefudeSettings)
+    # State of a running export: it belongs to the session, not to the file.
+    bpy.types.WindowManager.kagefude_percent = IntProperty(default=-1, options={'SKIP_SAVE'})
+    bpy.types.WindowManager.kagefude_cancel = BoolProperty(options={'SKIP_SAVE'})
+
+
+def unregister():
+    del bpy.types.WindowManager.kagefude_cancel
+    del bpy.types.WindowManager.kagefude_percent
+    del bpy.types.Scene.kagefude
+    for item in reversed(CLASSES):
+        bpy.utils.unregister_class(item)

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The artist's scene as the exporter sees it: what renders, with which ids, lit by which lights.
+
+All changes made here stay in the memory of the exporting Blender, which never saves.
+"""
+
+import bpy
+
+from .errors import ExportError, nearest
+
+GEOMETRY = {'MESH', 'CURVE', 'CURVES', 'SURFACE', 'FONT', 'META', 'VOLUME', 'POINTCLOUD'}
+HIGHEST_INDEX = 32767
+
+
+def active_view_layer(scene):
+    """The first view layer that renders."""
+    for view_layer in scene.view_layers:
+        if view_layer.use:
+            return view_layer
+    raise ExportError(f"scene '{scene.name}' has no view layer that is used for rendering")
+
+
+def rendered_objects(view_layer):
+    """Objects in collections that render, in the view layer, by name; their own switch may be animated."""
+    found = {}
+
+    def visit(layer_collection):
+        if layer_collection.exclude or layer_collection.collection.hide_render:
+            return
+        for item in layer_collection.collection.objects:
+            found[item.name_full] = item
+        for child in layer_collection.children:
+            visit(child)
+
+    visit(view_layer.layer_collection)
+    return [found[name] for name in sorted(found)]
+
+
+def evaluate_as_rendered(objects, view_layer):
+    """Let evaluation see what a render sees: view layer, collections, modifiers, subdivision."""
+    if bpy.context.window:
+        bpy.context.window.view_layer = view_layer
+    for collection in bpy.data.collections:
+        collection.hide_viewport = collection.hide_render
+    _open_eyes(view_layer.layer_collection)
+    for item in objects:
+        item.hide_set(False, view_layer=view_layer)
+        for modifier in item.modifiers:
+            modifier.show_viewport = modifier.show_render
+            if modifier.type in {'SUBSURF', 'MULTIRES'}:
+                modifier.levels = modifier.render_levels
+
+
+def show_what_renders(objects):
+    """The same for the objects' own switches, which may be animated: call it on every frame."""
+    for item in objects:
+        item.hide_viewport = item.hide_render
+
+
+def _open_eyes(layer_collection):
+    layer_collection.hide_viewport = False
+    for child in layer_collection.children:
+        _open_eyes(child)
+
+
+def exported_lights(objects, names):
+    """The named lights, or all that render and cast shadows; ExportError names what there is."""
+    lights = {item.name: item for item in objects if item.type == 'LIGHT'}
+    for name in names:
+        if name not in lights:
+            known = ", ".join(sorted(lights)) or "none"
+            raise ExportError(f"there is no light '{name}' that renders (lights: {known})"
+                              f"{nearest(name, list(lights))}")
+    chosen = [lights[name] for name in dict.fromkeys(names)] if names else \
+        [item for item in lights.values() if not item.hide_render and casts_shadow(item.data)]
+    if not chosen:
+        raise ExportError("the scene has no light that renders and casts shadows, so there is "
+                          "nothing to take shadow masks from; add a point, spot, sun or area light")
+    return chosen
+
+
+def casts_shadow(light):
+    portal = getattr(getattr(light, "cycles", None), "is_portal", False)
+    return getattr(light, "use_shadow", True) and light.cycles.cast_shadow and not portal
+
+
+def refuse_instanced_lights(objects):
+    """Lights inside collection instances cannot be kept out of the masks."""
+    for item in objects:
+        source = item.instance_collection if item.instance_type == 'COLLECTION' else None
+        for inner in source.all_objects if source else ():
+            if inner.type == 'LIGHT' and not inner.hide_render:
+                raise ExportError(f"light '{inner.name}' lies inside the collection instance "
+                                  f"'{item.name}' and would shine into every mask; use Object > "
+                                  f"Apply > Make Instances Real, or turn the light off")
+
+
+def give_distinct_indices(items):
+    """Give every object or material an index of its own above 0.
+
+    An index that the artist set and that nothing else has is kept.
+    """
+    taken = [item.pass_index for item in items]
+    unique = {index for index in taken if index > 0 and taken.count(index) == 1}
+    free = (index for index in range(1, HIGHEST_INDEX + 1) if index not in unique)
+    for item in items:
+        if item.pass_index not in unique:
+            index = next(free, None)
+            if index is None:
+                raise ExportError(f"more than {HIGHEST_INDEX} objects or materials cannot have "
+                                  f"distinct indices")
+            item.pass_index = index
+
+
+def all_geometry():
+    """Every object that can appear in a render, also as an instance, in the order of their names."""
+    return sorted((item for item in bpy.data.objects if item.type in GEOMETRY),
+                  key=lambda item: item.name_full)

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs inside Blender with a shot open: the add-on exports a copy and leaves the open file alone.
+
+    blender -b SHOT.blend --python-exit-code 1 -P check_addon.py -- OUTPUT
+"""
+
+import os
+import sys
+import time
+
+import bpy
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+from paths import exporter  # noqa: E402
+
+LIMIT_SECONDS = 300
+
+
+def open_file_state():
+    objects = {item.name: (item.pass_index, item.hide_viewport, [list(row) for row in item.matrix_world])
+               for item in bpy.data.objects}
+    scenes = {scene.name: (scene.frame_current, scene.cycles.samples, scene.render.resolution_x,
+                           [layer.name for layer in scene.view_layers]) for scene in bpy.data.scenes}
+    counts = {name: len(getattr(bpy.data, name))
+              for name in ("objects", "materials", "lights", "cameras", "collections", "worlds")}
+    return objects, scenes, counts, bpy.data.filepath, bpy.data.is_dirty
+
+
+def wait_for(export):
+    start = time.monotonic()
+    while not export.poll():
+        assert time.monotonic() - start < LIMIT_SECONDS, "the export does not end"
+        time.sleep(0.05)
+
+
+def check_panel(settings):
+    words = exporter("export_words").export_words(settings, bpy.context.scene, "a.####.exr")
+    options = exporter("arguments").parse_arguments(words)
+    assert options.frames == [bpy.context.scene.frame_current], options
+    assert (options.masks.kind, options.masks.count, options.offset) == ("disc", 9, None), options
+    settings.frames, settings.masks, settings.offset_auto = 'SCENE', 'line', False
+    settings.light = bpy.data.objects["Spot"]
+    words = exporter("export_words").export_words(settings, bpy.context.scene, "a.####.exr")
+    options = exporter("arguments").parse_arguments(words)
+    assert options.frames == [1, 2, 3] and options.lights == ["Spot"], options
+    assert (options.masks.kind, options.masks.count) == ("line", 5), options
+    assert abs(options.offset - 0.2) < 1e-6, options
+
+
+def check_export(output):
+    background = exporter("background_export").BackgroundExport
+    before = open_file_state()
+    export = background(["--output", output, "--frames=2", "--light=Spot", "--masks", "pair"])
+    wait_for(export)
+    assert export.error is None, export.error
+    assert export.percent == 100, export.percent
+    failing = background(["--output", output, "--frames=2", "--light=Spott"])
+    wait_for(failing)
+    assert "did you mean 'Spot'" in failing.error, failing.error
+    stopped = background(["--output", output, "--frames=1-1000", "--light=Spot"])
+    stopped.cancel()
+    assert stopped.finished and stopped.error == "cancelled"
+    assert open_file_state() == before, "the open file was changed"
+    left = [name for name in os.listdir(os.path.dirname(output)) if ".part" in name]
+    assert not left, left
+
+
+def main():
+    addon = exporter("panel")
+    addon.register()
+    check_export(sys.argv[-1])
+    check_panel(bpy.context.scene.kagefude)
+    addon.unregister()
+    assert not hasattr(bpy.types.Scene, "kagefude")
+    print("add-on checked", flush=True)
+
+
+main()
