@@ -28,6 +28,7 @@ class Options:
     truth_samples: int = 0       # 0: no truth layer
     scale: int = 1
     depth_size: int = 1024
+    casters: bool = False        # also write the triangles of casting objects
 
 
 class _Parser(argparse.ArgumentParser):
@@ -97,6 +98,9 @@ def build_parser():
                         help="render N times the file's resolution, 1 to 4 (default: 1)")
     parser.add_argument("--depth-size", type=_whole_number("depth-size", 16, 16384), default=1024,
                         metavar="PIXELS", help="side of the light-depth maps (default: 1024)")
+    parser.add_argument("--casters", action="store_true",
+                        help="also write the triangles of the objects that cast shadows, for the "
+                             "shadow methods that need their shape")
     return parser
 
 

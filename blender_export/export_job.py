@@ -6,6 +6,7 @@ import os
 import bpy
 
 from . import camera_view, exr_header, export_scenes, frame_image, shot, sidecar
+from .casters import CasterFiles
 from .light_depth import LightDepth, plan_view
 from .light_rig import LightRig
 from .output_names import light_keys, parse_output
@@ -42,6 +43,7 @@ class ExportJob:
         self.writer, more = frame_image.shot_writer(scene, view_layer, self.data)
         self.depth = LightDepth(scene, subjects, self.data.material, options.depth_size)
         self.cameras = camera_view.SharpCameras()
+        self.casters = CasterFiles(self.names.folder, self.names.before) if options.casters else None
         for note in notes + more:
             self.say(f"note: {note}")
 
@@ -78,6 +80,8 @@ class ExportJob:
                 light_view, name, exr_header.channel_names(part)[0], self.options.depth_size)
             yield
         document = self._document(frame, view, [entry for _, entry in placed], entries)
+        if self.casters:
+            document["casters"] = self.casters.write(bpy.context.evaluated_depsgraph_get())
         sidecar.check(document)
         parts.append(self._write_sidecar(frame, document))
         for part, path in parts:

@@ -16,7 +16,25 @@ bool hasArea(const V3f& a, const V3f& b, const V3f& c) {
   return normal.length2() > 0;
 }
 
-/// For each vertex the first vertex at the same place, so that meshes split at seams join again.
+void countEdges(const CasterMesh& mesh, CasterFaults& faults) {
+  const std::vector<uint32_t> welded = weldedIndices(mesh.vertices);
+  std::vector<std::pair<uint32_t, uint32_t>> edges;
+  edges.reserve(mesh.triangles.size() * 3);
+  for (const auto& triangle : mesh.triangles)
+    for (int i = 0; i < 3; ++i)
+      edges.push_back(std::minmax({welded[triangle[i]], welded[triangle[(i + 1) % 3]]}));
+  std::sort(edges.begin(), edges.end());
+  for (size_t first = 0; first < edges.size();) {
+    size_t end = first;
+    while (end < edges.size() && edges[end] == edges[first]) ++end;
+    if (end - first == 1) ++faults.openEdges;
+    if (end - first > 2) ++faults.nonManifoldEdges;
+    first = end;
+  }
+}
+
+}  // namespace
+
 std::vector<uint32_t> weldedIndices(const std::vector<V3f>& vertices) {
   std::vector<uint32_t> order(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -37,25 +55,6 @@ std::vector<uint32_t> weldedIndices(const std::vector<V3f>& vertices) {
       welded[*it] = welded[*(it - 1)];
   return welded;
 }
-
-void countEdges(const CasterMesh& mesh, CasterFaults& faults) {
-  const std::vector<uint32_t> welded = weldedIndices(mesh.vertices);
-  std::vector<std::pair<uint32_t, uint32_t>> edges;
-  edges.reserve(mesh.triangles.size() * 3);
-  for (const auto& triangle : mesh.triangles)
-    for (int i = 0; i < 3; ++i)
-      edges.push_back(std::minmax({welded[triangle[i]], welded[triangle[(i + 1) % 3]]}));
-  std::sort(edges.begin(), edges.end());
-  for (size_t first = 0; first < edges.size();) {
-    size_t end = first;
-    while (end < edges.size() && edges[end] == edges[first]) ++end;
-    if (end - first == 1) ++faults.openEdges;
-    if (end - first > 2) ++faults.nonManifoldEdges;
-    first = end;
-  }
-}
-
-}  // namespace
 
 CasterFaults cleanCasterMesh(CasterMesh& mesh) {
   CasterFaults faults;

@@ -31,6 +31,10 @@ struct CasterFaults {
   size_t dropped() const { return badIndices + nonFinite + degenerate; }
 };
 
+/// For each vertex the first vertex at the very same place, so that meshes split at seams join
+/// again. A vertex that is not finite stands for itself. Cost: O(n log n).
+std::vector<uint32_t> weldedIndices(const std::vector<V3f>& vertices);
+
 /// Drops the triangles that cannot throw a shadow and counts all faults. Order of the rest is kept.
 /// An empty mesh is allowed. Cost: O(n log n).
 CasterFaults cleanCasterMesh(CasterMesh& mesh);

@@ -28,6 +28,40 @@ struct Bounds {
   }
 };
 
+/// Tells the triangles of one mesh, which follow `first`, of their neighbours.
+void joinEdges(const CasterMesh& mesh, CasterSet::Triangle* first) {
+  struct Edge {
+    uint32_t low, high, triangle, side;
+    auto operator<=>(const Edge&) const = default;
+  };
+  const std::vector<uint32_t> welded = weldedIndices(mesh.vertices);
+  std::vector<Edge> edges;
+  edges.reserve(mesh.triangles.size() * 3);
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (uint32_t side = 0; side < 3; ++side) {
+      const auto [low, high] =
+          std::minmax({welded[mesh.triangles[t][side]], welded[mesh.triangles[t][(side + 1) % 3]]});
+      edges.push_back({low, high, t, side});
+    }
+  std::sort(edges.begin(), edges.end());
+  const auto tell = [&](const Edge& edge, const Edge& other) {
+    CasterSet::Triangle& triangle = first[edge.triangle];
+    triangle.shared[edge.side] = true;
+    triangle.across[edge.side] =
+        mesh.vertices[mesh.triangles[other.triangle][(other.side + 2) % 3]];
+  };
+  for (size_t i = 0; i < edges.size();) {
+    size_t end = i;
+    while (end < edges.size() && edges[end].low == edges[i].low && edges[end].high == edges[i].high)
+      ++end;
+    if (end - i == 2) {
+      tell(edges[i], edges[i + 1]);
+      tell(edges[i + 1], edges[i]);
+    }
+    i = end;
+  }
+}
+
 struct Split {
   int axis = -1;
   int bin = 0;
@@ -122,10 +156,15 @@ struct CasterSet::Builder {
 
 CasterSet::CasterSet(std::span<const CasterMesh> worldMeshes) {
   Builder builder{*this, {}, {}, {}};
-  for (const CasterMesh& mesh : worldMeshes)
+  for (const CasterMesh& mesh : worldMeshes) {
+    const size_t first = builder.source.size();
     for (const auto& t : mesh.triangles) {
-      const Triangle triangle{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]],
-                              mesh.id, true};
+      Triangle triangle;
+      triangle.a = mesh.vertices[t[0]];
+      triangle.b = mesh.vertices[t[1]];
+      triangle.c = mesh.vertices[t[2]];
+      triangle.id = mesh.id;
+      triangle.valid = true;
       Bounds box;
       box.add(triangle.a);
       box.add(triangle.b);
@@ -134,6 +173,8 @@ CasterSet::CasterSet(std::span<const CasterMesh> worldMeshes) {
       builder.source.push_back(triangle);
       builder.bounds.push_back(box);
     }
+    joinEdges(mesh, builder.source.data() + first);
+  }
   if (builder.source.empty()) return;
   for (const CasterMesh& mesh : worldMeshes)
     if (mesh.id != 0 && !mesh.triangles.empty()) ids_.push_back(mesh.id);

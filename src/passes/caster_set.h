@@ -14,13 +14,16 @@ inline constexpr int wedgeLanes = 8;
 
 /// The casters' triangles in world space under a tree of boxes, built once per frame for all
 /// lights and for the camera. Leaves are blocks of up to wedgeLanes triangles.
-/// Deterministic: the tree depends on the meshes alone. Memory about 90 bytes a triangle.
+/// Deterministic: the tree depends on the meshes alone. Memory about 140 bytes a triangle.
 class CasterSet {
  public:
   struct Triangle {
     V3f a, b, c;
     uint32_t id = 0;     ///< the mesh's id
     bool valid = false;  ///< false for the padding of a block
+    /// Whether exactly one other triangle shares the edge ab, bc, ca, and that one's third corner.
+    std::array<bool, 3> shared = {false, false, false};
+    std::array<V3f, 3> across = {V3f(0.0f), V3f(0.0f), V3f(0.0f)};
   };
   struct Node {
     V3f low, high;

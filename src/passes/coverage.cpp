@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "image/parallel.h"
 #include "passes/pixel_boxes.h"
+#include "passes/surface_sampler.h"
 
 namespace kagefude {
 namespace {
 
 /// Lists up to this length are tested pixel by pixel at once rather than cut down further.
-constexpr int shortList = 6;
+constexpr int shortList = 48;
 constexpr float roundingBias = 4e-6f;
 
 float biasOf(float pixelSize, float reach, const CoverageParams& params) {
@@ -22,60 +24,45 @@ PointBox fromApex(PointBox box, const V3f& apex) {
   return box;
 }
 
-/// What the quartering of tiles has in common: a rectangle and the wedges that may shade it.
-/// Derived supplies settle(rect, shaded) for uniform rectangles and leaf(rect, list) for the rest.
 struct Rect {
   int x0, y0, x1, y1;
+
   int width() const { return x1 - x0; }
+  Rect quarter(int k) const {
+    const int half = width() / 2, x = x0 + (k % 2) * half, y = y0 + (k / 2) * half;
+    return {x, y, x + half, y + half};
+  }
 };
 
-/// Cuts the rectangle in four with ever shorter lists until it is uniform, a pixel, or its list is
-/// short. `settle(rect, shaded)` takes uniform ones, `leaf(rect, list)` the others.
-template <class Settle, class Leaf>
-void quarter(const PixelBoxes& boxes, const V3f& apex, float bias, bool trustInside,
-             const Rect& rect, const WedgeList& list, std::array<WedgeList, 4>& levels, int level,
-             const Settle& settle, const Leaf& leaf) {
-  if (rect.width() == 1 || list.count <= shortList) {
-    leaf(rect, list);
-    return;
-  }
-  const int half = rect.width() / 2;
-  for (int k = 0; k < 4; ++k) {
-    const int x = rect.x0 + (k % 2) * half, y = rect.y0 + (k / 2) * half;
-    const Rect part{x, y, x + half, y + half};
-    PointBox box;
-    if (!boxes.around(part.x0, part.y0, part.x1, part.y1, box)) continue;
-    WedgeList& kept = levels[level];
-    const float limit = trustInside ? bias : 1e30f;
-    const BoxState state = filterWedges(list, fromApex(box, apex), limit, kept);
-    if (state == BoxState::touching)
-      quarter(boxes, apex, bias, trustInside, part, kept, levels, level + 1, settle, leaf);
-    else
-      settle(part, state == BoxState::inside);
-  }
-}
-
+/// Descends the tree for a tile and cuts it in four, with ever shorter lists, until a rectangle is
+/// uniform or its list is short.
 class TileShader {
  public:
   TileShader(const SeenSurface& surface, const ShadowWedges& wedges, const CoverageParams& params)
       : surface_(surface), wedges_(wedges), params_(params) {}
 
  protected:
-  /// Descends the tree for the tile and quarters what is not uniform.
+  /// `settle(rect, shaded)` takes uniform rectangles, `leaf(rect, list)` the others.
   template <class Settle, class Leaf>
-  void shade(const PixelBoxes& boxes, const Settle& settle, const Leaf& leaf) {
-    const Rect tile{0, 0, coverageTile, coverageTile};
-    if (!boxes.around(tile.x0, tile.y0, tile.x1, tile.y1, tileBox_)) return;
-    bias_ = biasOf(boxes.pixelSize(), boxes.reach(), params_);
-    // With the receiver left out, whether a wedge counts depends on the pixel's object.
-    const float limit = params_.selfShadow ? bias_ : 1e30f;
-    const BoxState state = wedges_.gather(tileBox_, limit, tileList_);
-    if (state != BoxState::touching) {
-      settle(tile, state == BoxState::inside);
+  void shade(const PixelBoxes& boxes, const Rect& rect, const Settle& settle, const Leaf& leaf) {
+    PointBox box;
+    bool stretched;
+    if (!boxes.around(rect.x0, rect.y0, rect.x1, rect.y1, box, stretched)) return;
+    if (stretched && rect.width() > 1) {
+      for (int k = 0; k < 4; ++k) shade(boxes, rect.quarter(k), settle, leaf);
       return;
     }
-    quarter(boxes, wedges_.apex(), bias_, params_.selfShadow, tile, tileList_, levels_, 0, settle,
-            leaf);
+    const BoxState state = wedges_.gather(box, verdictBias(boxes), list_);
+    if (state == BoxState::touching)
+      refine(boxes, rect, list_, 0, settle, leaf);
+    else
+      settle(rect, state == BoxState::inside);
+  }
+
+  /// With the receiver left out, whether a wedge counts depends on the sub-pixel's object, so that
+  /// nothing larger can be judged.
+  float verdictBias(const PixelBoxes& boxes) const {
+    return params_.selfShadow ? biasOf(boxes.pixelSize(), boxes.reach(), params_) : undecided;
   }
   bool counts(uint32_t casterId, uint32_t receiverId) const {
     return params_.selfShadow || casterId == 0 || casterId != receiverId;
@@ -84,9 +71,31 @@ class TileShader {
   const SeenSurface& surface_;
   const ShadowWedges& wedges_;
   const CoverageParams& params_;
-  PointBox tileBox_;
-  float bias_ = 0;
-  WedgeList tileList_;
+
+ private:
+  template <class Settle, class Leaf>
+  void refine(const PixelBoxes& boxes, const Rect& rect, const WedgeList& list, int level,
+              const Settle& settle, const Leaf& leaf) {
+    if (rect.width() == 1 || list.count <= shortList) {
+      leaf(rect, list);
+      return;
+    }
+    for (int k = 0; k < 4; ++k) {
+      const Rect part = rect.quarter(k);
+      PointBox box;
+      bool stretched;
+      if (!boxes.around(part.x0, part.y0, part.x1, part.y1, box, stretched)) continue;
+      WedgeList& kept = levels_[level];
+      const BoxState state =
+          filterWedges(list, fromApex(box, wedges_.apex()), verdictBias(boxes), kept);
+      if (state == BoxState::touching)
+        refine(boxes, part, kept, level + 1, settle, leaf);
+      else
+        settle(part, state == BoxState::inside);
+    }
+  }
+
+  WedgeList list_;
   std::array<WedgeList, 4> levels_;
 };
 
@@ -99,61 +108,112 @@ class CoverageShader : TileShader {
   void tile(int x0, int y0) {
     const PixelBoxes boxes(surface_, x0, y0, false);
     sampler_.startTile(x0, y0, x0 + boxes.width(), y0 + boxes.height());
-    const auto settle = [&](const Rect& rect, bool shaded) {
-      eachPixel(boxes, rect, [&](int x, int y) { result_(x0 + x, y0 + y) = shaded ? 1.0f : 0.0f; });
-    };
-    shade(boxes, settle, [&](const Rect& rect, const WedgeList& list) {
-      eachPixel(boxes, rect, [&](int x, int y) { pixel(boxes, x, y, x0 + x, y0 + y, list); });
-    });
+    shade(
+        boxes, {0, 0, coverageTile, coverageTile},
+        [&](const Rect& rect, bool shaded) {
+          eachSmooth(boxes, rect,
+                     [&](int x, int y) { result_(x0 + x, y0 + y) = shaded ? 1.0f : 0.0f; });
+        },
+        [&](const Rect& rect, const WedgeList& list) {
+          eachSmooth(boxes, rect, [&](int x, int y) { smoothPixel(boxes, x, y, x0, y0, list); });
+        });
+    for (int y = 0; y < boxes.height(); ++y)
+      for (int x = 0; x < boxes.width(); ++x)
+        if (boxes.edge(x, y)) edgePixel(boxes, x0 + x, y0 + y);
   }
 
  private:
   template <class Body>
-  static void eachPixel(const PixelBoxes& boxes, const Rect& rect, const Body& body) {
+  static void eachSmooth(const PixelBoxes& boxes, const Rect& rect, const Body& body) {
     for (int y = rect.y0; y < std::min(rect.y1, boxes.height()); ++y)
       for (int x = rect.x0; x < std::min(rect.x1, boxes.width()); ++x)
-        if (boxes.present(x, y)) body(x, y);
+        if (boxes.smooth(x, y)) body(x, y);
   }
 
-  void pixel(const PixelBoxes& boxes, int tileX, int tileY, int x, int y, const WedgeList& list) {
+  void smoothPixel(const PixelBoxes& boxes, int tileX, int tileY, int x0, int y0,
+                   const WedgeList& list) {
+    const int x = x0 + tileX, y = y0 + tileY;
     PointBox expected;
-    boxes.around(tileX, tileY, tileX + 1, tileY + 1, expected);
+    bool stretched;
+    boxes.around(tileX, tileY, tileX + 1, tileY + 1, expected, stretched);
     const float bias = biasOf(surface_.pixelSize(x, y), boxes.reach(), params_);
-    const float limit = params_.selfShadow ? bias : 1e30f;
-    const BoxState state = filterWedges(list, fromApex(expected, wedges_.apex()), limit, near_);
+    BoxState state = filterIndices(list, fromApex(expected, wedges_.apex()),
+                                   params_.selfShadow ? bias : undecided, indices_);
+    FlatPixel flat;
+    if (state == BoxState::touching && sampler_.locate(x, y, flat)) state = judge(flat, list, bias);
     if (state != BoxState::touching) {
       result_(x, y) = state == BoxState::inside ? 1.0f : 0.0f;
       return;
     }
-    sampler_.sample(x, y, points_);
-    const PointBox box = points_.box();
-    const WedgeList* wedges = &near_;
-    if (!expected.contains(box)) {
-      if (wedges_.gather(box, 1e30f, near_) == BoxState::apart) {
-        result_(x, y) = 0.0f;
-        return;
-      }
-    }
-    result_(x, y) = cut(*wedges, bias);
+    sampler_.sample(points_);
+    if (points_.present != 0 && expected.contains(points_.box(points_.present)))
+      result_(x, y) = shareOf(cut(list, points_.present, bias));
+    else
+      result_(x, y) = gatherAndCut(bias);
   }
 
-  /// Share of the present sub-pixels inside any of the wedges.
-  float cut(const WedgeList& wedges, float bias) {
+  /// A pixel where P alone does not bound what is seen: the sub-pixels are found first.
+  void edgePixel(const PixelBoxes& boxes, int x, int y) {
+    const float bias = biasOf(surface_.pixelSize(x, y), boxes.reach(), params_);
+    FlatPixel flat;
+    sampler_.locate(x, y, flat);
+    sampler_.sample(points_);
+    result_(x, y) = gatherAndCut(bias);
+  }
+
+  /// Settles a flat pixel by its corners, and drops the wedges that it lies apart from.
+  BoxState judge(const FlatPixel& flat, const WedgeList& list, float bias) {
+    std::array<V3f, 4> corners = flat.corners;
+    for (V3f& corner : corners) corner -= wedges_.apex();
+    size_t kept = 0;
+    for (int i : indices_) {
+      if (!counts(list.id[i], flat.id)) continue;
+      const BoxState state = patchState(list.wedge(i), corners, bias);
+      if (state == BoxState::inside) return state;
+      if (state == BoxState::touching) indices_[kept++] = i;
+    }
+    indices_.resize(kept);
+    return kept == 0 ? BoxState::apart : BoxState::touching;
+  }
+
+  /// Cuts the sampled sub-pixels in up to two groups, before and behind a gap, so that each has a
+  /// small box.
+  float gatherAndCut(float bias) {
+    const uint64_t before = points_.beforeGap();
+    uint64_t shaded = 0;
+    for (uint64_t group : {before, points_.present & ~before}) {
+      if (group == 0) continue;
+      wedges_.gather(points_.box(group), undecided, near_);
+      indices_.resize(static_cast<size_t>(near_.count));
+      std::iota(indices_.begin(), indices_.end(), 0);
+      shaded |= cut(near_, group, bias);
+    }
+    return shareOf(shaded);
+  }
+
+  /// The sub-pixels of the group inside any of the wedges that indices_ names.
+  uint64_t cut(const WedgeList& list, uint64_t group, float bias) const {
     const V3f apex = wedges_.apex();
+    alignas(64) float x[64], y[64], z[64];
     for (int k = 0; k < 64; ++k) {
-      points_.x[k] -= apex.x;
-      points_.y[k] -= apex.y;
-      points_.z[k] -= apex.z;
+      x[k] = points_.x[k] - apex.x;
+      y[k] = points_.y[k] - apex.y;
+      z[k] = points_.z[k] - apex.z;
     }
     uint64_t shaded = 0;
-    for (int i = 0; i < wedges.count && (shaded & points_.present) != points_.present; ++i) {
-      uint64_t mask = wedgeMask(wedges.wedge(i), points_.x, points_.y, points_.z, bias);
-      if (!params_.selfShadow && mask != 0) mask &= ~own(wedges.id[i]);
+    for (int i : indices_) {
+      uint64_t mask = wedgeMask(list.wedge(i), x, y, z, bias) & group;
+      if (!params_.selfShadow && mask != 0) mask &= ~own(list.id[i]);
       shaded |= mask;
+      if (shaded == group) break;
     }
-    const int seen = std::popcount(points_.present);
-    const int hidden = std::popcount(shaded & points_.present);
-    return seen == 0 ? 0.0f : static_cast<float>(hidden) / static_cast<float>(seen);
+    return shaded;
+  }
+
+  float shareOf(uint64_t shaded) const {
+    if (points_.present == 0) return 0.0f;
+    return static_cast<float>(std::popcount(shaded)) /
+           static_cast<float>(std::popcount(points_.present));
   }
 
   uint64_t own(uint32_t id) const {
@@ -167,6 +227,7 @@ class CoverageShader : TileShader {
   View<float> result_;
   SubpixelPoints points_;
   WedgeList near_;
+  std::vector<int> indices_;
 };
 
 class MaskShader : TileShader {
@@ -177,10 +238,12 @@ class MaskShader : TileShader {
 
   void tile(int x0, int y0) {
     const PixelBoxes boxes(surface_, x0, y0, true);
+    bias_ = biasOf(boxes.pixelSize(), boxes.reach(), params_);
     uint64_t shaded = 0;
     bool loaded = false;
     shade(
-        boxes, [&](const Rect& rect, bool full) { shaded |= full ? bitsIn(rect) : 0; },
+        boxes, {0, 0, coverageTile, coverageTile},
+        [&](const Rect& rect, bool full) { shaded |= full ? bitsIn(rect) : 0; },
         [&](const Rect& rect, const WedgeList& list) {
           if (!loaded) load(boxes, x0, y0);
           loaded = true;
@@ -188,7 +251,7 @@ class MaskShader : TileShader {
         });
     for (int y = 0; y < boxes.height(); ++y)
       for (int x = 0; x < boxes.width(); ++x)
-        if (boxes.present(x, y) && (shaded >> (y * coverageTile + x) & 1))
+        if (boxes.smooth(x, y) && (shaded >> (y * coverageTile + x) & 1))
           result_(x0 + x, y0 + y) = 0;
   }
 
@@ -203,7 +266,7 @@ class MaskShader : TileShader {
   void load(const PixelBoxes& boxes, int x0, int y0) {
     for (int k = 0; k < 64; ++k) {
       const int x = k % coverageTile, y = k / coverageTile;
-      const bool present = x < boxes.width() && y < boxes.height() && boxes.present(x, y);
+      const bool present = x < boxes.width() && y < boxes.height() && boxes.smooth(x, y);
       const V3f p = present ? surface_.relative(x0 + x, y0 + y) - wedges_.apex() : V3f(0.0f);
       points_.x[k] = p.x;
       points_.y[k] = p.y;
@@ -225,6 +288,7 @@ class MaskShader : TileShader {
   }
 
   View<uint8_t> result_;
+  float bias_ = 0;
   SubpixelPoints points_;
 };
 

@@ -6,6 +6,7 @@
 #include "image/plane.h"
 #include "passes/caster_set.h"
 #include "passes/seen_surface.h"
+#include "passes/shadow_wedges.h"
 
 namespace kagefude {
 

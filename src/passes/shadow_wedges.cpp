@@ -14,12 +14,14 @@ namespace {
 constexpr float slack = 2e-6f;
 /// Below this sine between light and triangle the triangle is a line and throws no shadow.
 constexpr double edgeOn = 1e-9;
+/// Added to the value of a side that is no edge of the shadow, so that it is never negative.
+constexpr float carriedOn = 1e30f;
 
 struct WedgePlanes {
   float c[wedgeCoefficients];
 };
 
-constexpr WedgePlanes emptyWedge = {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}};
+constexpr WedgePlanes emptyWedge = {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}};
 
 void setPlane(WedgePlanes& wedge, int plane, const V3d& normal, double offset) {
   for (int i = 0; i < 3; ++i) wedge.c[4 * plane + i] = static_cast<float>(normal[i]);
@@ -35,7 +37,11 @@ double sideOffset(const V3d& a, const V3d& b, bool directional, const V3d& direc
   return directional ? b.cross(a).dot(direction) : 0.0;
 }
 
-WedgePlanes wedgeOf(const std::array<V3d, 3>& corner, bool directional, const V3d& direction) {
+WedgePlanes wedgeOf(const CasterSet::Triangle& triangle, const V3d& origin, bool directional,
+                    const V3d& direction) {
+  if (!triangle.valid) return emptyWedge;
+  const V3d corner[3] = {V3d(triangle.a) - origin, V3d(triangle.b) - origin,
+                         V3d(triangle.c) - origin};
   V3d face = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
   const double area = face.length();
   if (!(area > 0)) return emptyWedge;
@@ -48,31 +54,79 @@ WedgePlanes wedgeOf(const std::array<V3d, 3>& corner, bool directional, const V3
   const double sign = facing > 0 ? 1.0 : -1.0;
   for (int i = 0; i < 3; ++i) {
     const V3d &a = corner[i], &b = corner[(i + 1) % 3];
-    setPlane(wedge, i, sideNormal(a, b, directional, direction) * sign,
-             sideOffset(a, b, directional, direction) * sign);
+    const V3d normal = sideNormal(a, b, directional, direction) * sign;
+    const double offset = sideOffset(a, b, directional, direction) * sign;
+    setPlane(wedge, i, normal, offset);
+    const bool beyond = normal.dot(V3d(triangle.across[i]) - origin) < offset;
+    wedge.c[16 + i] = triangle.shared[i] && beyond ? carriedOn : 0.0f;
   }
   setPlane(wedge, 3, face * sign, face.dot(corner[0]) * sign);
   return wedge;
 }
 
+/// Per wedge: whether it may reach the box, holds the box, has an edge of the shadow or its own
+/// plane in the box, and holds the box's centre.
+struct BoxFlags {
+  uint8_t *touching, *inside, *crossing, *centred;
+};
+
 KAGEFUDE_CLONES void boxStates(const float* const* c, int count, const float* centre,
-                               const float* half, float bias, uint8_t* touching, uint8_t* inside) {
+                               const float* half, float bias, const BoxFlags& flags) {
+  uint8_t* const touching = flags.touching;
+  uint8_t* const inside = flags.inside;
+  uint8_t* const crossing = flags.crossing;
+  uint8_t* const centred = flags.centred;
   for (int i = 0; i < count; ++i) {
-    float most = 1e30f, least = 1e30f;
+    float most = 1e30f, least = 1e30f, edge = 1e30f, middles = 1e30f;
     for (int plane = 0; plane < 4; ++plane) {
       const float nx = c[4 * plane][i], ny = c[4 * plane + 1][i], nz = c[4 * plane + 2][i];
       const float middle = nx * centre[0] + ny * centre[1] + nz * centre[2] - c[4 * plane + 3][i];
       const float reach =
           std::fabs(nx) * half[0] + std::fabs(ny) * half[1] + std::fabs(nz) * half[2];
-      const float high = middle + reach;
-      const float low = middle - reach - (plane == 3 ? bias : 0.0f);
+      const float margin = plane == 3 ? bias : 0.0f;
+      const float high = middle + reach, low = middle - reach - margin;
+      const float open = plane == 3 ? low : low + c[16 + (plane & 3) % 3][i];
       most = high < most ? high : most;
       least = low < least ? low : least;
+      edge = open < edge ? open : edge;
+      middles = middle - margin < middles ? middle - margin : middles;
     }
     touching[i] = most >= 0.0f ? 1 : 0;
     inside[i] = least >= 0.0f ? 1 : 0;
+    crossing[i] = edge < 0.0f ? 1 : 0;
+    centred[i] = middles >= 0.0f ? 1 : 0;
   }
 }
+
+/// Gathers what boxStates says of many wedges into one verdict.
+struct Verdict {
+  bool inside = false, crossing = false, centred = false, touching = false;
+
+  BoxState state(float bias) const {
+    if (!touching) return BoxState::apart;
+    if (bias == undecided) return BoxState::touching;
+    if (inside) return BoxState::inside;
+    if (crossing) return BoxState::touching;
+    return centred ? BoxState::inside : BoxState::apart;
+  }
+};
+
+constexpr int chunk = 256;
+
+struct ChunkFlags {
+  alignas(64) uint8_t touching[chunk], inside[chunk], crossing[chunk], centred[chunk];
+  BoxFlags flags() { return {touching, inside, crossing, centred}; }
+
+  /// Adds wedge i to the verdict; true when it reaches the box.
+  bool add(int i, Verdict& verdict) const {
+    if (!touching[i]) return false;
+    verdict.touching = true;
+    verdict.inside |= inside[i] != 0;
+    verdict.crossing |= crossing[i] != 0;
+    verdict.centred |= centred[i] != 0;
+    return true;
+  }
+};
 
 KAGEFUDE_CLONES void insideBytes(const float* c, const float* x, const float* y, const float* z,
                                  float bias, uint8_t* inside) {
@@ -136,10 +190,7 @@ ShadowWedges::ShadowWedges(const CasterSet& casters, const LightPlace& light, co
   const V3d origin = eye + V3d(apex_);
   for (size_t i = 0; i < casters.triangles().size(); ++i) {
     const CasterSet::Triangle& t = casters.triangles()[i];
-    const WedgePlanes wedge =
-        t.valid ? wedgeOf({V3d(t.a) - origin, V3d(t.b) - origin, V3d(t.c) - origin}, directional_,
-                          direction)
-                : emptyWedge;
+    const WedgePlanes wedge = wedgeOf(t, origin, directional_, direction);
     Block& block = blocks_[i / wedgeLanes];
     for (int k = 0; k < wedgeCoefficients; ++k) block.c[k][i % wedgeLanes] = wedge.c[k];
     block.id[i % wedgeLanes] = t.id;
@@ -175,20 +226,17 @@ BoxState ShadowWedges::gather(const PointBox& box, float bias, WedgeList& found)
   local.centre -= apex_;
   local = grown(local);
   const Shaft shaft = Shaft::toLight(local, directional_, direction_);
-  bool covered = false;
+  Verdict verdict;
+  ChunkFlags flags;
   descend([&](const V3f& low, const V3f& high) { return shaft.mayTouch(low, high); },
           [&](const float* const* rows, const uint32_t* id) {
-            uint8_t touching[wedgeLanes], inside[wedgeLanes];
-            boxStates(rows, wedgeLanes, &local.centre.x, &local.half.x, bias, touching, inside);
-            for (int lane = 0; lane < wedgeLanes; ++lane) {
-              covered |= inside[lane] != 0;
-              if (touching[lane]) found.append(rows, lane, id[lane]);
-            }
-            return !covered;
+            boxStates(rows, wedgeLanes, &local.centre.x, &local.half.x, bias, flags.flags());
+            for (int lane = 0; lane < wedgeLanes; ++lane)
+              if (flags.add(lane, verdict)) found.append(rows, lane, id[lane]);
+            return !verdict.inside;
           });
   found.pad();
-  if (covered) return BoxState::inside;
-  return found.empty() ? BoxState::apart : BoxState::touching;
+  return verdict.state(bias);
 }
 
 void ShadowWedges::gatherSeen(const std::array<V3f, 4>& corners, WedgeList& found) const {
@@ -212,25 +260,49 @@ void ShadowWedges::gatherSeen(const std::array<V3f, 4>& corners, WedgeList& foun
   found.pad();
 }
 
-BoxState filterWedges(const WedgeList& list, const PointBox& box, float bias, WedgeList& kept) {
+BoxState filterIndices(const WedgeList& list, const PointBox& box, float bias,
+                       std::vector<int>& kept) {
   kept.clear();
   const PointBox local = grown(box);
   const float* rows[wedgeCoefficients];
   for (int k = 0; k < wedgeCoefficients; ++k) rows[k] = list.coefficients[k].data();
-  constexpr int chunk = 256;
-  uint8_t touching[chunk], inside[chunk];
-  for (int first = 0; first < list.count; first += chunk) {
+  Verdict verdict;
+  ChunkFlags flags;
+  for (int first = 0; first < list.count && !verdict.inside; first += chunk) {
     const int padded = (list.count - first + wedgeLanes - 1) / wedgeLanes * wedgeLanes;
     const int count = std::min(chunk, padded);
-    boxStates(rows, count, &local.centre.x, &local.half.x, bias, touching, inside);
-    for (int i = 0; i < count; ++i) {
-      if (inside[i]) return BoxState::inside;
-      if (touching[i]) kept.append(rows, i, list.id[first + i]);
-    }
+    boxStates(rows, count, &local.centre.x, &local.half.x, bias, flags.flags());
+    for (int i = 0; i < count; ++i)
+      if (flags.add(i, verdict)) kept.push_back(first + i);
     for (auto& row : rows) row += chunk;
   }
+  return verdict.state(bias);
+}
+
+BoxState filterWedges(const WedgeList& list, const PointBox& box, float bias, WedgeList& kept) {
+  thread_local std::vector<int> indices;
+  const BoxState state = filterIndices(list, box, bias, indices);
+  kept.clear();
+  if (state != BoxState::touching) return state;
+  const float* rows[wedgeCoefficients];
+  for (int k = 0; k < wedgeCoefficients; ++k) rows[k] = list.coefficients[k].data();
+  for (int i : indices) kept.append(rows, i, list.id[i]);
   kept.pad();
-  return kept.empty() ? BoxState::apart : BoxState::touching;
+  return state;
+}
+
+BoxState patchState(const std::array<float, wedgeCoefficients>& wedge,
+                    const std::array<V3f, 4>& corners, float bias) {
+  bool inside = true;
+  for (int plane = 0; plane < 4; ++plane) {
+    const float* c = wedge.data() + 4 * plane;
+    const float offset = plane == 3 ? c[3] + bias : c[3];
+    int behind = 0;
+    for (const V3f& q : corners) behind += c[0] * q.x + c[1] * q.y + c[2] * q.z >= offset;
+    if (behind == 0) return BoxState::apart;
+    inside &= behind == 4;
+  }
+  return inside ? BoxState::inside : BoxState::touching;
 }
 
 uint64_t bitsOf(const uint8_t* bytes) {

@@ -30,7 +30,9 @@ struct PointBox {
 /// is n, 4*plane + 3 is d. Planes 0-2 are the sides; plane 3 has a unit normal. Edges that two
 /// triangles share give coefficients that differ in sign only, bit for bit, so shadows of
 /// neighbours leave no gap. Triangles seen edge-on, and padding, hold no point.
-inline constexpr int wedgeCoefficients = 16;
+/// Coefficients 16-18 say whether the sides are edges of the caster's shadow: 0 where no other
+/// triangle carries the shadow on (an open edge, a silhouette), large where one does.
+inline constexpr int wedgeCoefficients = 19;
 
 /// Wedges side by side, coefficient by coefficient, padded to whole vectors with empty ones.
 struct WedgeList {
@@ -47,6 +49,9 @@ struct WedgeList {
   std::array<float, wedgeCoefficients> wedge(int index) const;
 };
 
+/// The bias that asks for a list only.
+inline constexpr float undecided = 1e30f;
+
 enum class BoxState : uint8_t { apart, touching, inside };
 
 /// The shadow volumes of all casters for one light, or, with the camera in the light's stead, what
@@ -61,8 +66,10 @@ class ShadowWedges {
   const V3f& apex() const { return apex_; }
   const CasterSet& casters() const { return casters_; }
 
-  /// Writes to `found` every wedge that may hold a point of the box; returns inside when one of
-  /// them holds the whole box by more than `bias` (world units; `found` is then incomplete).
+  /// Writes to `found` every wedge that may hold a point of the box. Unless bias is `undecided`,
+  /// returns inside or apart when the whole box is in shadow or lit by more than `bias` (world
+  /// units), whatever `found` holds: when one wedge holds the box, or when no edge of a shadow and
+  /// no plane of a wedge in reach passes through it, so that its centre speaks for all of it.
   BoxState gather(const PointBox& box, float bias, WedgeList& found) const;
 
   /// For the camera's wedges: every triangle that may be seen in the picture's rectangle, whose
@@ -85,9 +92,17 @@ class ShadowWedges {
   void descend(const NodeTest& test, const Leaf& leaf) const;
 };
 
-/// Keeps in `kept` the wedges of `list` that may hold a point of the box; returns inside, as
-/// ShadowWedges::gather does, when one holds all of it. `box` is relative to the apex.
+/// Keeps in `kept` the wedges of `list` that may hold a point of the box, and judges the box as
+/// ShadowWedges::gather does. `box` is relative to the apex.
 BoxState filterWedges(const WedgeList& list, const PointBox& box, float bias, WedgeList& kept);
+
+/// As above, but gives the indices of the kept wedges, for short lists.
+BoxState filterIndices(const WedgeList& list, const PointBox& box, float bias,
+                       std::vector<int>& kept);
+
+/// How a flat patch with four corners (relative to the apex) lies to one wedge.
+BoxState patchState(const std::array<float, wedgeCoefficients>& wedge,
+                    const std::array<V3f, 4>& corners, float bias);
 
 /// One bit for each of 64 points: set where q lies in the wedge, more than bias behind its
 /// triangle. NaN is outside.

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "base/parameter.h"
+#include "image/plane.h"
+#include "passes/caster_mesh.h"
+#include "passes/seen_surface.h"
+#include "passes/shadow_wedges.h"
+
+namespace kagefude {
+
+struct PlanarParams {
+  std::vector<float> color = {0, 0, 0};
+  float alpha = 0.5f;
+};
+
+inline constexpr std::array planarParameters = {
+    numbers<&PlanarParams::color>("color", 3, 0, 1, "linear", "Flat colour of the shadow."),
+    number<&PlanarParams::alpha>("alpha", 0, 1, "", "Opacity of the shadow."),
+};
+
+inline constexpr ParameterTable planarTable = {
+    "planar", "Casters projected on a flat receiver along the light, drawn once per pixel.", "003",
+    planarParameters};
+
+/// A flat receiver in world space, with a unit normal.
+struct ReceiverPlane {
+  V3d point{0, 0, 0};
+  V3d normal{0, 0, 1};
+};
+
+/// The plane through the mean position of the pixels with the ID, along their mean normal. Throws
+/// InputError, naming `receiver`, when no pixel has the ID or one lies farther from the plane than
+/// a hundredth of the receiver's extent: it is not flat.
+ReceiverPlane planeOfReceiver(const SeenSurface& surface, uint32_t id, const std::string& receiver);
+
+/// The parts of the casters between the light and the plane, flattened onto it along the light
+/// (the projection matrix of 003, for any plane and a light at a place or far away). What lies
+/// beyond the plane or beyond the light is clipped, not mirrored. Empty when the light shines along
+/// the plane.
+std::vector<CasterMesh> projectedOnPlane(std::span<const CasterMesh> casters,
+                                         const ReceiverPlane& plane, const LightPlace& light);
+
+/// Opacity of the flat shadow at each pixel of the receiver, 0 to alpha: the share of 8x8
+/// sub-pixels whose ray passes through a flattened caster. A sub-pixel counts once however many
+/// triangles cover it, as with the lecture's stencil. Casters with the receiver's own ID are left
+/// out; other pixels are 0. The picture is dst (1 - a) + color a.
+Floats planarShadow(const SeenSurface& surface, uint32_t receiverId, const ReceiverPlane& plane,
+                    std::span<const CasterMesh> casters, const LightPlace& light,
+                    const PlanarParams& params);
+
+}  // namespace kagefude

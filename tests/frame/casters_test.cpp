@@ -1,0 +1,93 @@
+#include "frame/casters.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "base/error.h"
+
+namespace kagefude {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Casters : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / (std::string("kagefude_casters_") + test->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  static std::string entry(const std::string& file, const std::string& rows) {
+    return R"({"object":"Cup","file":")" + file + R"(","world_from_object":)" + rows + "}";
+  }
+
+  const std::string moved_ = "[[1,0,0,5],[0,1,0,0],[0,0,2,0],[0,0,0,1]]";
+  const std::string triangle_ = "# c\nmtllib ../x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n";
+  fs::path folder_;
+};
+
+TEST_F(Casters, PlacedNamedAndNumbered) {
+  write("a.obj", triangle_);
+  const fs::path sidecar = write("f.json", "{\"casters\":[" + entry("a.obj", moved_) + "]}");
+  const FrameCasters casters = readCasters(sidecar, {{"Cup", 7}});
+  ASSERT_EQ(casters.meshes.size(), 1u);
+  EXPECT_TRUE(casters.warnings.empty());
+  const CasterMesh& mesh = casters.meshes[0];
+  EXPECT_EQ(mesh.object, "Cup");
+  EXPECT_EQ(mesh.id, 7u);
+  ASSERT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.vertices[2], V3f(5, 1, 2));
+}
+
+TEST_F(Casters, InstancesShareAFileAndPolygonsAreCut) {
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  const std::string one = entry("a.obj", moved_);
+  const fs::path sidecar = write("f.json", "{\"casters\":[" + one + "," + one + "]}");
+  const FrameCasters casters = readCasters(sidecar, {});
+  ASSERT_EQ(casters.meshes.size(), 2u);
+  EXPECT_EQ(casters.meshes[1].triangles.size(), 2u);
+  EXPECT_EQ(casters.meshes[1].id, 0u);
+}
+
+TEST_F(Casters, BadTrianglesWarn) {
+  write("a.obj", triangle_ + "v nan 0 0\nf 1 2 9\nf 1 1 2\n");
+  const fs::path sidecar = write("f.json", "{\"casters\":[" + entry("a.obj", moved_) + "]}");
+  const FrameCasters casters = readCasters(sidecar, {});
+  EXPECT_EQ(casters.meshes[0].triangles.size(), 1u);
+  ASSERT_EQ(casters.warnings.size(), 1u);
+  EXPECT_NE(casters.warnings[0].find("Cup has 2 triangles"), std::string::npos)
+      << casters.warnings[0];
+}
+
+TEST_F(Casters, NoCastersIsNoError) {
+  EXPECT_TRUE(readCasters(write("f.json", "{}"), {}).meshes.empty());
+}
+
+TEST_F(Casters, MalformedSidecarsAndFilesAreRefused) {
+  for (const char* text :
+       {"", "[]", "{\"casters\":3}", "{\"casters\":[3]}", "{\"casters\":[{\"object\":\"Cup\"}]}"})
+    EXPECT_THROW(readCasters(write("f.json", text), {}), InputError) << text;
+  for (const char* rows : {"[]", "null", "[[1,0,0],[0,1,0],[0,0,1],[0,0,0]]",
+                           "[[1,0,0,\"x\"],[0,1,0,0],[0,0,1,0],[0,0,0,1]]"})
+    EXPECT_THROW(readCasterEntries(write("f.json", "{\"casters\":[" + entry("a.obj", rows) + "]}")),
+                 InputError)
+        << rows;
+  for (const char* file : {"/etc/passwd", "../a.obj", "x/../../a.obj", ""})
+    EXPECT_THROW(readCasterEntries(write("f.json", "{\"casters\":[" + entry(file, moved_) + "]}")),
+                 InputError)
+        << file;
+  EXPECT_THROW(
+      readCasters(write("f.json", "{\"casters\":[" + entry("gone.obj", moved_) + "]}"), {}),
+      InputError);
+  EXPECT_THROW(readCasters(folder_ / "gone.json", {}), InputError);
+}
+
+}  // namespace
+}  // namespace kagefude
