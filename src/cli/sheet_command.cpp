@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "compositor/compose_frame.h"
 #include "compositor/contact_sheet.h"
+#include "compositor/read_frame.h"
 
 namespace kagefude {
 namespace {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/glob.h"
+#include "compositor/frame_edges.h"
 #include "compositor/frame_tone.h"
 #include "compositor/styled_surfaces.h"
 #include "image/parallel.h"
@@ -14,29 +15,30 @@ namespace {
 
 bool asksFor(const Look& look, const char* layer) { return matchesAny(layer, look.output.layers); }
 
-/// Strokes over what lies behind them: associated "over" where strokes are, the beauty (or nothing)
-/// where none are.
-void compositeOver(const Look& look, const FramePlanes& planes, const StyledSurfaces& styled,
-                   BrushResult& brush) {
-  const bool background = look.output.background == Background::beauty && !planes.beauty.empty();
-  const bool albedo = !planes.albedo.empty();
+void multiplyAlbedo(const FramePlanes& planes, const StyledSurfaces& styled, BrushResult& brush) {
+  if (planes.albedo.empty()) return;
   parallelRows(planes.height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < planes.width; ++x) {
         const uint16_t anchor = styled.anchorIndex(x, y);
-        float* const colour[3] = {&brush.r(x, y), &brush.g(x, y), &brush.b(x, y)};
-        float& alpha = brush.a(x, y);
-        if (anchor != 0 && albedo && styled.multiplies[anchor - 1u]) {
-          *colour[0] *= planes.albedo.x(x, y);
-          *colour[1] *= planes.albedo.y(x, y);
-          *colour[2] *= planes.albedo.z(x, y);
-        }
-        if (!background) continue;
-        const float behind = 1.0f - alpha;
-        *colour[0] += behind * planes.beauty.x(x, y);
-        *colour[1] += behind * planes.beauty.y(x, y);
-        *colour[2] += behind * planes.beauty.z(x, y);
-        alpha += behind * (planes.alpha.empty() ? 1.0f : planes.alpha(x, y));
+        if (anchor == 0 || !styled.multiplies[anchor - 1u]) continue;
+        brush.r(x, y) *= planes.albedo.x(x, y);
+        brush.g(x, y) *= planes.albedo.y(x, y);
+        brush.b(x, y) *= planes.albedo.z(x, y);
+      }
+  });
+}
+
+/// Associated "over": the strokes, and behind them the beauty.
+void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x) {
+        const float behind = 1.0f - brush.a(x, y);
+        brush.r(x, y) += behind * planes.beauty.x(x, y);
+        brush.g(x, y) += behind * planes.beauty.y(x, y);
+        brush.b(x, y) += behind * planes.beauty.z(x, y);
+        brush.a(x, y) += behind * (planes.alpha.empty() ? 1.0f : planes.alpha(x, y));
       }
   });
 }
@@ -76,13 +78,19 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
     sink->number("brush.angle", brush.angle);
     sink->number("brush.repeat", brush.repeat);
   }
-  compositeOver(look, planes, styled, brush);
+  multiplyAlbedo(planes, styled, brush);
+  blendEdges(plan, planes, brush);
+  Floats outline = drawStyleOutlines(look, plan, planes, styled, asksFor(look, "outline"), brush);
+  if (sink && !outline.empty()) sink->number("outline", outline);
+  if (look.output.background == Background::beauty && !planes.beauty.empty())
+    putBeautyBehind(planes, brush);
   result.colour.x = std::move(brush.r);
   result.colour.y = std::move(brush.g);
   result.colour.z = std::move(brush.b);
   result.alpha = std::move(brush.a);
   if (sink) sink->picture("result", result.colour);
   if (asksFor(look, "brush.tone")) result.layers.push_back({"brush.tone", std::move(tone)});
+  if (asksFor(look, "outline")) result.layers.push_back({"outline", std::move(outline)});
   if (asksFor(look, "brush.angle"))
     result.layers.push_back({"brush.angle", std::move(brush.angle)});
   if (asksFor(look, "brush.repeat"))

@@ -5,9 +5,8 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/glob.h"
 #include "frame/cryptomatte.h"
-#include "frame/read_channels.h"
-#include "frame/sanitise.h"
 
 namespace kagefude {
 namespace {
@@ -20,7 +19,8 @@ AovNames namesFor(const Look& look, const std::optional<Sidecar>& sidecar) {
   return names;
 }
 
-bool anyStyleHas(const Look& look, std::vector<std::string> StyleParams::*list) {
+template <class List>
+bool anyStyleHas(const Look& look, List StyleParams::*list) {
   return std::any_of(look.styles.begin(), look.styles.end(),
                      [&](const StyleLook& style) { return !(style.style.*list).empty(); });
 }
@@ -62,6 +62,17 @@ void planObjects(const AovNames& names, FramePlan& plan) {
   }
 }
 
+/// Coverage needs ids that Cryptomatte and the object pass have in common.
+void planCoverage(const Look& look, const AovNames& names, FramePlan& plan) {
+  if (look.output.edges != Edges::coverage || plan.idSource == IdSource::surface) return;
+  if (plan.idSource == IdSource::index && !plan.sidecar) return;
+  plan.coverage = findAov(plan.image, names, AovKind::cryptoObject);
+}
+
+bool wantsOutlines(const Look& look) {
+  return matchesAny("outline", look.output.layers) || anyStyleHas(look, &StyleParams::outline);
+}
+
 void nameObjectsFromSidecar(FramePlan& plan) {
   if (!plan.sidecar) return;
   for (const SidecarObject& object : plan.sidecar->objects)
@@ -87,46 +98,17 @@ void planMaterials(const AovNames& names, FramePlan& plan) {
       plan.materialNames.emplace(material.cryptoId, material.name);
 }
 
-void readVector(std::vector<Floats>& planes, size_t& next, Vec3Plane& into) {
-  into.x = std::move(planes[next++]);
-  into.y = std::move(planes[next++]);
-  into.z = std::move(planes[next++]);
-}
-
-Labels readIds(const ImageFile& image, const Aov& aov, IdSource source) {
-  if (source != IdSource::cryptomatte) return readIndices(image, aov.channels.at(0));
-  return dominantIds(readCryptomatte(image, aov.name, 2));
-}
-
-Bytes toMask(View<const float> values) {
-  Bytes mask(values.width, values.height);
-  for (int y = 0; y < values.height; ++y)
-    for (int x = 0; x < values.width; ++x) mask(x, y) = values(x, y) >= 0.5f ? 1 : 0;
-  return mask;
-}
-
-Floats readDepthMap(const DepthMapSource& source) {
-  const ImageFile image = openImage(source.file);
-  std::string channel = source.channel;
-  if (channel.empty() || !image.findChannel(channel))
-    channel = requireAov(image, {}, AovKind::depth).channels.at(0);
-  return std::move(readFloats(image, std::vector{channel}).at(0));
-}
-
-/// Pixels without an id are background; so are those without a position and a normal.
-void clearBackground(FramePlanes& planes) {
-  for (int y = 0; y < planes.height; ++y)
-    for (int x = 0; x < planes.width; ++x) {
-      const V3f n(planes.normal.x(x, y), planes.normal.y(x, y), planes.normal.z(x, y));
-      if (n.x == 0.0f && n.y == 0.0f && n.z == 0.0f) planes.objectId(x, y) = 0;
-    }
-}
-
 }  // namespace
 
 std::string FramePlan::objectName(uint32_t id) const {
   const auto found = objectNames.find(id);
   return found == objectNames.end() ? std::string() : found->second;
+}
+
+uint32_t FramePlan::cryptomatteIdOf(uint32_t id) const {
+  if (idSource == IdSource::cryptomatte) return id;
+  const SidecarObject* object = findObject(id);
+  return object ? object->cryptoId : 0;
 }
 
 const SidecarObject* FramePlan::findObject(uint32_t id) const {
@@ -149,47 +131,10 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   planObjects(names, plan);
   if (anyStyleHas(look, &StyleParams::material)) planMaterials(names, plan);
   nameObjectsFromSidecar(plan);
+  planCoverage(look, names, plan);
+  if (wantsOutlines(look) && !plan.sidecar) plan.depth = findAov(plan.image, names, AovKind::depth);
   plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame);
   return plan;
-}
-
-FramePlanes readFramePlanes(const FramePlan& plan) {
-  std::vector<std::string> channels;
-  const auto want = [&](const Aov& aov, size_t count) {
-    channels.insert(channels.end(), aov.channels.begin(),
-                    aov.channels.begin() + static_cast<long>(std::min(count, aov.channels.size())));
-  };
-  want(plan.position, 3);
-  want(plan.normal, 3);
-  if (plan.albedo) want(*plan.albedo, 3);
-  if (plan.beauty) want(*plan.beauty, 4);
-  for (const FrameLight& light : plan.lights)
-    channels.insert(channels.end(), light.maskChannels.begin(), light.maskChannels.end());
-  std::vector<Floats> read = readFloats(plan.image, channels);
-
-  FramePlanes planes;
-  planes.width = read.at(0).width();
-  planes.height = read.at(0).height();
-  size_t next = 0;
-  readVector(read, next, planes.position);
-  readVector(read, next, planes.normal);
-  if (plan.albedo) readVector(read, next, planes.albedo);
-  if (plan.beauty) {
-    readVector(read, next, planes.beauty);
-    if (plan.beauty->channels.size() > 3) planes.alpha = std::move(read[next++]);
-  }
-  for (const FrameLight& light : plan.lights) {
-    LightPlanes& own = planes.lights.emplace_back();
-    for (size_t i = 0; i < light.maskChannels.size(); ++i)
-      own.masks.push_back(toMask(read[next++]));
-    if (light.method == ShadowMethod::pcf) own.depthMap = readDepthMap(*light.depthMap);
-  }
-  planes.objectId = readIds(plan.image, plan.objectId, plan.idSource);
-  if (plan.materialId)
-    planes.materialId = readIds(plan.image, *plan.materialId, plan.materialSource);
-  planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
-  clearBackground(planes);
-  return planes;
 }
 
 size_t frameMemory(const FramePlan& plan) {
@@ -198,6 +143,7 @@ size_t frameMemory(const FramePlan& plan) {
   if (plan.albedo) bytes += 12;
   if (plan.beauty) bytes += 16;
   if (plan.materialId) bytes += 16;
+  if (plan.coverage) bytes += 32;
   for (const FrameLight& light : plan.lights) bytes += 4 * light.maskChannels.size() + 4;
   return bytes * static_cast<size_t>(plan.image.width) * static_cast<size_t>(plan.image.height);
 }

@@ -21,6 +21,8 @@ struct FramePlan {
   std::vector<FrameLight> lights;
   Aov position, normal;
   std::optional<Aov> albedo, beauty;
+  std::optional<Aov> depth;     ///< only for outlines where no camera is known
+  std::optional<Aov> coverage;  ///< Cryptomatte of objects whose coverage draws the edges
   IdSource idSource = IdSource::cryptomatte;
   Aov objectId;
   IdSource materialSource = IdSource::cryptomatte;
@@ -31,6 +33,8 @@ struct FramePlan {
 
   /// Name of an object id for messages and styles; "" when nothing names it.
   std::string objectName(uint32_t id) const;
+  /// The id that the Cryptomatte of objects has for an object id.
+  uint32_t cryptomatteIdOf(uint32_t id) const;
   /// The sidecar's object of that id, or null.
   const SidecarObject* findObject(uint32_t id) const;
 };
@@ -38,9 +42,6 @@ struct FramePlan {
 /// Opens a frame and finds every pass that the look needs. Throws InputError or LookError that name
 /// what is missing; nothing of the size of the picture is allocated.
 FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame);
-
-/// Reads the planned pixels. NaN and Inf make a pixel background and are counted.
-FramePlanes readFramePlanes(const FramePlan& plan);
 
 /// Bytes that a frame of this plan holds at once while it is composited, inputs and results.
 size_t frameMemory(const FramePlan& plan);

@@ -25,8 +25,11 @@ struct FramePlanes {
   Vec3Plane albedo;
   Vec3Plane beauty;
   Floats alpha;
-  std::vector<LightPlanes> lights;  ///< in the order of the plan's lights
-  size_t badPixels = 0;             ///< pixels whose NaN or Inf made them background
+  Floats depth;                        ///< only for outlines where no camera is known
+  std::vector<Labels> coverageIds;     ///< Cryptomatte of objects by rank, for clean edges
+  std::vector<Floats> coverageShares;  ///< how much of the pixel each covers
+  std::vector<LightPlanes> lights;     ///< in the order of the plan's lights
+  size_t badPixels = 0;                ///< pixels whose NaN or Inf made them background
 };
 
 }  // namespace kagefude

@@ -119,7 +119,8 @@ BrushSubject subjectOf(const StyleParams& style, const FramePlan& plan, const Fr
   BrushSubject subject;
   subject.sceneRadius = light.subjectRadius;
   const Surface& surface = index.surfaces[number - 1];
-  if (const SidecarObject* object = plan.findObject(surface.object)) {
+  const SidecarObject* const object = plan.findObject(surface.object);
+  if (object) {
     subject.worldFromObject = object->worldFromObject;
     subject.boundsMin = V3f(object->boundsMin);
     subject.boundsMax = V3f(object->boundsMax);
@@ -137,6 +138,8 @@ BrushSubject subjectOf(const StyleParams& style, const FramePlan& plan, const Fr
           plan.objectName(surface.object).empty() ? fmt::format("{:08x}", surface.object)
                                                   : plan.objectName(surface.object)));
   }
+  if (object)
+    for (const V3d& point : object->referencePoints) subject.referencePoints.push_back(V3f(point));
   if (!style.reference.empty())
     subject.referencePoints = {V3f(style.reference[0], style.reference[1], style.reference[2])};
   return subject;
@@ -157,9 +160,10 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     subject.strip = strips.indexOf(style.style.strip);
     result.anchors.push_back(makeBrushAnchor(subject, light.light, style.passes.brush));
     result.tones.push_back(style.passes.tone);
-    result.multiplies.push_back(
-        style.style.colour == StripColour::multiply ||
-        (style.style.colour == StripColour::automatic && isBuiltinStrip(style.style.strip)));
+    result.multiplies.push_back(multipliesColour(style.style));
+    const std::vector<float>& line = style.style.outline;
+    result.outlines.push_back(line.empty() ? std::nullopt
+                                           : std::optional(V3f(line[0], line[1], line[2])));
   }
   result.anchorIndex = std::move(index.plane);
   return result;

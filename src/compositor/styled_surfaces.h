@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "compositor/frame_plan.h"
@@ -15,6 +16,7 @@ struct StyledSurfaces {
   std::vector<BrushAnchor> anchors;
   std::vector<ToneParams> tones;  ///< per anchor
   std::vector<bool> multiplies;   ///< per anchor: the strip multiplies the surface's colour
+  std::vector<std::optional<V3f>> outlines;  ///< per anchor: colour of its outlines
 };
 
 /// Gives every object (and material, where styles ask) the first style that matches, or the look's

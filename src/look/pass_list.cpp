@@ -18,6 +18,7 @@ constexpr std::array passes{
     entry<&PassParams::pcf>(pcfTable),           entry<&PassParams::smooth>(smoothTable),
     entry<&PassParams::shade>(shadeTable),       entry<&PassParams::merge>(mergeTable),
     entry<&PassParams::tone>(toneTable),         entry<&PassParams::brush>(brushTable),
+    entry<&PassParams::outline>(outlineTable),
 };
 
 constexpr std::array ownSections{&aovNamesTable, &shadowTable, &lightTable,

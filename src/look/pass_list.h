@@ -5,6 +5,7 @@
 #include "passes/brush_params.h"
 #include "passes/lambert.h"
 #include "passes/merge.h"
+#include "passes/outline.h"
 #include "passes/pair_search.h"
 #include "passes/pcf.h"
 #include "passes/smooth.h"
@@ -24,6 +25,7 @@ struct PassParams {
   MergeParams merge;
   ToneParams tone;
   BrushParams brush;
+  OutlineParams outline;
 };
 
 /// One pass as the look sees it: its table, and where its parameters lie.

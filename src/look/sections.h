@@ -54,6 +54,8 @@ inline constexpr ParameterTable colourTable{"colour", "names the colour spaces",
 
 enum class Background { beauty, transparent };
 inline constexpr std::string_view backgroundNames[] = {"beauty", "transparent"};
+enum class Edges { coverage, pixel };
+inline constexpr std::string_view edgeNames[] = {"coverage", "pixel"};
 enum class PixelKind { half, full };
 inline constexpr std::string_view pixelKindNames[] = {"half", "float"};
 inline constexpr std::string_view compressionNames[] = {"none", "rle", "zips", "zip", "piz"};
@@ -63,6 +65,7 @@ struct OutputParams {
   std::vector<std::string> layers;
   bool passthrough = false;
   Background background = Background::beauty;
+  Edges edges = Edges::coverage;
   PixelKind colour = PixelKind::half;
   Compression compression = Compression::zip;
 };
@@ -75,6 +78,9 @@ inline constexpr Parameter outputParameters[] = {
                                       "also writes every other input channel unchanged"),
     choice<&OutputParams::background>("background", backgroundNames,
                                       "what stands where no surface is painted"),
+    choice<&OutputParams::edges>("edges", edgeNames,
+                                 "whether things meet by their Cryptomatte coverage, or pixel by "
+                                 "pixel"),
     choice<&OutputParams::colour>("colour", pixelKindNames,
                                   "type of R,G,B,A; data layers are always float"),
     choice<&OutputParams::compression>("compression", compressionNames, "lossless EXR compression"),
@@ -94,6 +100,7 @@ struct StyleParams {
   StripColour colour = StripColour::automatic;
   std::vector<float> reference;
   std::string light;
+  std::vector<float> outline;
 };
 inline constexpr Parameter styleParameters[] = {
     plain<&StyleParams::object>("object", "names or globs of objects that the style paints"),
@@ -101,7 +108,8 @@ inline constexpr Parameter styleParameters[] = {
     number<&StyleParams::index>("index", 0, 1 << 24, "",
                                 "object index that the style paints; 0: by name only"),
     plain<&StyleParams::strip>(
-        "strip", "picture of the strip, relative to the look, or builtin:neutral, :soft, :fine, :cel"),
+        "strip",
+        "picture of the strip, relative to the look, or builtin:neutral, :soft, :fine, :cel"),
     choice<&StyleParams::colour>(
         "colour", stripColourNames,
         "whether the strip replaces the surface's colour or multiplies it; auto multiplies for "
@@ -110,7 +118,9 @@ inline constexpr Parameter styleParameters[] = {
         "reference", 0, -1e12, 1e12, "world units",
         "reference point x, y, z for all objects of the style; empty: each object's own"),
     plain<&StyleParams::light>("light",
-                               "light that strokes run round; empty: the first that takes part"),
+                               "light that strokes run round; empty: the one that weighs most"),
+    numbers<&StyleParams::outline>("outline", 3, 0, 100, "scene-linear",
+                                   "colour r, g, b of the outlines; empty: no outlines"),
 };
 inline constexpr ParameterTable styleTable{"style", "paints objects or materials with a strip",
                                            "002 fig. 5.5", styleParameters};

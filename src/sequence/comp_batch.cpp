@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/temp_file.h"
 #include "compositor/compose_frame.h"
+#include "compositor/read_frame.h"
 #include "compositor/write_frame.h"
 #include "sequence/fingerprint.h"
 

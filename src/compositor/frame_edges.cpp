@@ -1,0 +1,93 @@
+#include "compositor/frame_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "image/parallel.h"
+#include "passes/coverage_blend.h"
+#include "passes/outline.h"
+
+namespace kagefude {
+namespace {
+
+/// Each pixel's own thing in the Cryptomatte's ids.
+Labels ownCryptomatteIds(const FramePlan& plan, View<const uint32_t> objects) {
+  Labels ids(objects.width, objects.height);
+  std::unordered_map<uint32_t, uint32_t> known{{0u, 0u}};
+  uint32_t last = 0, lastId = 0;
+  for (size_t i = 0; i < objects.pixels(); ++i) {
+    const uint32_t object = objects.data[i];
+    if (object != last) {
+      const auto [found, isNew] = known.try_emplace(object, 0);
+      if (isNew) found->second = plan.cryptomatteIdOf(object);
+      last = object;
+      lastId = found->second;
+    }
+    ids.row(0)[i] = lastId;
+  }
+  return ids;
+}
+
+/// Distances from the camera; only compared, so any depth along the view serves.
+Floats cameraDistance(const FramePlan& plan, const FramePlanes& planes) {
+  if (!plan.sidecar) return planes.depth.empty() ? Floats() : planes.depth.clone();
+  const V3f eye(plan.sidecar->camera.position);
+  Floats distance(planes.width, planes.height);
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x) {
+        const V3f d = planes.position.view()(x, y) - eye;
+        distance(x, y) = std::sqrt(d.dot(d));
+      }
+  });
+  return distance;
+}
+
+}  // namespace
+
+void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush) {
+  if (planes.coverageIds.empty()) return;
+  const Labels own = ownCryptomatteIds(plan, planes.objectId);
+  std::vector<CoverageRank> ranks;
+  for (size_t i = 0; i < planes.coverageIds.size(); ++i)
+    ranks.push_back({planes.coverageIds[i], planes.coverageShares[i]});
+  ColourPlanes blended = blendByCoverage({brush.r, brush.g, brush.b, brush.a}, own, ranks);
+  brush.r = std::move(blended.r);
+  brush.g = std::move(blended.g);
+  brush.b = std::move(blended.b);
+  brush.a = std::move(blended.a);
+}
+
+Floats drawStyleOutlines(const Look& look, const FramePlan& plan, const FramePlanes& planes,
+                         const StyledSurfaces& styled, bool always, BrushResult& brush) {
+  const bool any = std::any_of(styled.outlines.begin(), styled.outlines.end(),
+                               [](const auto& colour) { return colour.has_value(); });
+  if (!any && !always) return {};
+  // Lines are drawn between anchors, so the owner of a line names its style.
+  Labels anchors(planes.width, planes.height);
+  std::copy_n(styled.anchorIndex.row(0), anchors.view().pixels(), anchors.row(0));
+  const Floats depth = cameraDistance(plan, planes);
+  OutlineResult lines =
+      drawOutlines(anchors, planes.normal, planes.position, depth, look.passes.outline);
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x) {
+        float& share = lines.coverage(x, y);
+        const uint32_t owner = lines.owner(x, y);
+        if (share <= 0.0f || owner == 0 || owner > styled.outlines.size()) continue;
+        const auto& colour = styled.outlines[owner - 1];
+        if (!colour) {
+          share = always ? share : 0.0f;
+          continue;
+        }
+        brush.r(x, y) += (colour->x - brush.r(x, y)) * share;
+        brush.g(x, y) += (colour->y - brush.g(x, y)) * share;
+        brush.b(x, y) += (colour->z - brush.b(x, y)) * share;
+        brush.a(x, y) += (1.0f - brush.a(x, y)) * share;
+      }
+  });
+  return std::move(lines.coverage);
+}
+
+}  // namespace kagefude

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "compositor/frame_plan.h"
+#include "compositor/styled_surfaces.h"
+#include "passes/brush_map.h"
+
+namespace kagefude {
+
+/// Lets things meet by their Cryptomatte coverage instead of pixel by pixel, where the frame has
+/// it; else leaves the strokes as they are.
+void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
+
+/// Draws the styles' contour lines over the strokes, each in the colour of the style of its nearest
+/// surface. Returns the lines' coverage (layer `outline`); empty when no style draws any and
+/// `always` is false.
+Floats drawStyleOutlines(const Look& look, const FramePlan& plan, const FramePlanes& planes,
+                         const StyledSurfaces& styled, bool always, BrushResult& brush);
+
+}  // namespace kagefude

@@ -1,0 +1,108 @@
+#include "compositor/read_frame.h"
+
+#include "frame/cryptomatte.h"
+#include "frame/read_channels.h"
+#include "frame/sanitise.h"
+#include "image/parallel.h"
+
+namespace kagefude {
+namespace {
+
+/// Ids as they are read: a Cryptomatte's ranks, or an index pass as numbers.
+struct RequestedIds {
+  CryptomattePlanes matte;
+  Floats index;
+};
+
+void requestVector(ChannelReader& reader, const Aov& aov, Vec3Plane& planes) {
+  reader.floats(aov.channels.at(0), planes.x);
+  reader.floats(aov.channels.at(1), planes.y);
+  reader.floats(aov.channels.at(2), planes.z);
+}
+
+void requestIds(ChannelReader& reader, const Aov& aov, IdSource source, RequestedIds& ids) {
+  constexpr int dominantRanks = 2;  // ranks come by falling coverage, but for filtered files
+  if (source == IdSource::cryptomatte)
+    ids.matte = requestCryptomatte(reader, aov.name, dominantRanks);
+  else
+    reader.floats(aov.channels.at(0), ids.index);
+}
+
+Labels idsFrom(const RequestedIds& ids, IdSource source) {
+  return source == IdSource::cryptomatte ? dominantIds(ids.matte) : roundIndices(ids.index);
+}
+
+Bytes toMask(View<const float> values) {
+  Bytes mask(values.width, values.height);
+  parallelRows(values.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < values.width; ++x) mask(x, y) = values(x, y) >= 0.5f ? 1 : 0;
+  });
+  return mask;
+}
+
+Floats readDepthMap(const DepthMapSource& source) {
+  const ImageFile image = openImage(source.file);
+  std::string channel = source.channel;
+  if (channel.empty() || !image.findChannel(channel))
+    channel = requireAov(image, {}, AovKind::depth).channels.at(0);
+  return std::move(readFloats(image, std::vector{channel}).at(0));
+}
+
+/// A pixel without a normal shows no surface, whatever its id says.
+void clearWithoutNormal(FramePlanes& planes) {
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x)
+        if (planes.normal.view()(x, y) == V3f(0.0f)) planes.objectId(x, y) = 0;
+  });
+}
+
+}  // namespace
+
+FramePlanes readFramePlanes(const FramePlan& plan) {
+  FramePlanes planes;
+  ChannelReader reader(plan.image);
+  requestVector(reader, plan.position, planes.position);
+  requestVector(reader, plan.normal, planes.normal);
+  if (plan.albedo) requestVector(reader, *plan.albedo, planes.albedo);
+  if (plan.beauty) {
+    requestVector(reader, *plan.beauty, planes.beauty);
+    if (plan.beauty->channels.size() > 3) reader.floats(plan.beauty->channels[3], planes.alpha);
+  }
+  if (plan.depth) reader.floats(plan.depth->channels.at(0), planes.depth);
+  RequestedIds objects, materials;
+  requestIds(reader, plan.objectId, plan.idSource, objects);
+  if (plan.materialId) requestIds(reader, *plan.materialId, plan.materialSource, materials);
+  CryptomattePlanes coverage;
+  constexpr int edgeRanks = 4;  // a pixel where more than four things meet shows no edge to clean
+  if (plan.coverage) coverage = requestCryptomatte(reader, plan.coverage->name, edgeRanks);
+  std::vector<std::vector<Floats>> masks(plan.lights.size());
+  for (size_t i = 0; i < plan.lights.size(); ++i) {
+    masks[i].resize(plan.lights[i].maskChannels.size());
+    for (size_t k = 0; k < masks[i].size(); ++k)
+      reader.floats(plan.lights[i].maskChannels[k], masks[i][k]);
+  }
+  reader.read();
+
+  planes.width = planes.position.x.width();
+  planes.height = planes.position.x.height();
+  for (size_t i = 0; i < plan.lights.size(); ++i) {
+    LightPlanes& own = planes.lights.emplace_back();
+    for (Floats& mask : masks[i]) {
+      own.masks.push_back(toMask(mask));
+      mask = Floats();
+    }
+    if (plan.lights[i].method == ShadowMethod::pcf)
+      own.depthMap = readDepthMap(*plan.lights[i].depthMap);
+  }
+  planes.objectId = idsFrom(objects, plan.idSource);
+  if (plan.materialId) planes.materialId = idsFrom(materials, plan.materialSource);
+  planes.coverageIds = std::move(coverage.ids);
+  planes.coverageShares = std::move(coverage.coverage);
+  planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
+  clearWithoutNormal(planes);
+  return planes;
+}
+
+}  // namespace kagefude
