@@ -1,0 +1,76 @@
+#include "passes/warp_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace kagefude {
+namespace {
+
+struct Pair {
+  Floats now{16, 16}, before{16, 16};
+  Labels ids{16, 16, 1u}, idsBefore{16, 16, 1u};
+  Floats motionX{16, 16, 0.0f}, motionY{16, 16, 0.0f};
+
+  WarpError measure() const {
+    const View<const float> current[] = {now.view()}, previous[] = {before.view()};
+    return warpError(current, previous, ids, idsBefore, motionX, motionY);
+  }
+};
+
+float ramp(float x, float y) { return 0.03f * x + 0.01f * y; }
+
+TEST(WarpError, PictureThatMovesWithItsMotionHasNone) {
+  Pair pair;
+  // Moved right by 1.5 and up by 2 pixels since the previous frame.
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) {
+      const float fx = static_cast<float>(x), fy = static_cast<float>(y);
+      pair.before(x, y) = ramp(fx, fy);
+      pair.now(x, y) = ramp(fx - 1.5f, fy + 2);
+      pair.motionX(x, y) = -1.5f;
+      pair.motionY(x, y) = -2;  // upward, as Blender counts
+    }
+  const WarpError error = pair.measure();
+  EXPECT_LT(error.rmse, 1e-6);
+  EXPECT_EQ(error.pixels, 14 * 14) << "two columns and rows came from outside";
+  EXPECT_EQ(error.perPixel(0, 8), -1.0f);
+}
+
+TEST(WarpError, ConstantDifferenceByHand) {
+  Pair pair;
+  pair.now.fill(0.75f);
+  pair.before.fill(0.5f);
+  const WarpError error = pair.measure();
+  EXPECT_DOUBLE_EQ(error.rmse, 0.25);
+  EXPECT_EQ(error.pixels, 256);
+  EXPECT_FLOAT_EQ(error.perPixel(3, 3), 0.25f);
+}
+
+TEST(WarpError, OcclusionsBackgroundAndBrokenPixelsAreLeftOut) {
+  Pair pair;
+  pair.now.fill(1);
+  pair.before.fill(1);
+  pair.ids(2, 2) = 0;
+  pair.idsBefore(5, 5) = 9;
+  pair.motionX(8, 8) = std::numeric_limits<float>::quiet_NaN();
+  pair.before(11, 11) = std::numeric_limits<float>::infinity();
+  const WarpError error = pair.measure();
+  EXPECT_EQ(error.pixels, 252);
+  EXPECT_EQ(error.rmse, 0.0);
+  for (const int i : {2, 5, 8, 11}) EXPECT_EQ(error.perPixel(i, i), -1.0f) << i;
+}
+
+TEST(WarpError, NothingVisibleGivesZeroPixels) {
+  Pair pair;
+  pair.now.fill(1);
+  pair.before.fill(0);
+  pair.motionX.fill(100);
+  const WarpError error = pair.measure();
+  EXPECT_EQ(error.pixels, 0);
+  EXPECT_EQ(error.rmse, 0.0);
+}
+
+}  // namespace
+}  // namespace kagefude
