@@ -17,11 +17,11 @@ cmake --build --preset release
 export KAGEFUDE_LONG_TESTS=$long
 python3 -m unittest discover -s tests/blender_export -p 'test_*.py'
 ctest --preset release -j2
-for script in tests/e2e/*_test.sh; do
-  [ -e "$script" ] && bash "$script"
+
+shopt -s nullglob
+scripts=(tests/e2e/*_test.sh)
+[ -z "$long" ] || scripts+=(tests/e2e/*_long.sh)
+for script in "${scripts[@]}"; do
+  echo "== $script"
+  bash "$script"
 done
-if [ -n "$long" ]; then
-  for script in tests/e2e/*_long.sh; do
-    [ -e "$script" ] && bash "$script"
-  done
-fi

@@ -70,7 +70,7 @@ void planCoverage(const Look& look, const AovNames& names, FramePlan& plan) {
 }
 
 bool wantsOutlines(const Look& look) {
-  return matchesAny("outline", look.output.layers) || anyStyleHas(look, &StyleParams::outline);
+  return matchesAny("outline", look.output.layers) || anyStyleHas(look, &StyleParams::outlineColour);
 }
 
 void nameObjectsFromSidecar(FramePlan& plan) {

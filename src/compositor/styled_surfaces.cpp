@@ -161,7 +161,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     result.anchors.push_back(makeBrushAnchor(subject, light.light, style.passes.brush));
     result.tones.push_back(style.passes.tone);
     result.multiplies.push_back(multipliesColour(style.style));
-    const std::vector<float>& line = style.style.outline;
+    const std::vector<float>& line = style.style.outlineColour;
     result.outlines.push_back(line.empty() ? std::nullopt
                                            : std::optional(V3f(line[0], line[1], line[2])));
   }

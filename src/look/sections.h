@@ -100,7 +100,7 @@ struct StyleParams {
   StripColour colour = StripColour::automatic;
   std::vector<float> reference;
   std::string light;
-  std::vector<float> outline;
+  std::vector<float> outlineColour;
 };
 inline constexpr Parameter styleParameters[] = {
     plain<&StyleParams::object>("object", "names or globs of objects that the style paints"),
@@ -119,7 +119,7 @@ inline constexpr Parameter styleParameters[] = {
         "reference point x, y, z for all objects of the style; empty: each object's own"),
     plain<&StyleParams::light>("light",
                                "light that strokes run round; empty: the one that weighs most"),
-    numbers<&StyleParams::outline>("outline", 3, 0, 100, "scene-linear",
+    numbers<&StyleParams::outlineColour>("outline_colour", 3, 0, 100, "scene-linear",
                                    "colour r, g, b of the outlines; empty: no outlines"),
 };
 inline constexpr ParameterTable styleTable{"style", "paints objects or materials with a strip",
