@@ -79,6 +79,15 @@ void flushToDisk(const fs::path& path, const fs::path& target) {
     throw OutputError(fmt::format("cannot write {}: {}", target.string(), reason(failed)));
 }
 
+/// A new name is on the disk only when its folder is. Some file systems cannot flush one; the file
+/// itself is safe by then, so that is no error.
+void flushFolder(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
+}
+
 bool processIsGone(long pid) { return kill(static_cast<pid_t>(pid), 0) != 0 && errno == ESRCH; }
 
 bool isAbandoned(const fs::path& path, const TempName& name) {
@@ -160,6 +169,7 @@ void TempFile::commit() {
     throw OutputError(fmt::format("cannot write {}: {}", target_.string(), reason(errno)));
   live.paths.erase(path_);
   live_ = false;
+  flushFolder(folderOf(target_));
 }
 
 void writeFileAtomically(const fs::path& target, std::string_view contents) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <iosfwd>
+#include <string>
 
 namespace CLI {
 class App;
@@ -13,6 +14,7 @@ struct Console {
   std::ostream& out;
   std::ostream& err;
   bool terminal = false;  ///< whether `err` is a terminal that can redraw a line
+  int columns = 80;       ///< of that terminal
 };
 
 /// How a command ended, as farms read it.
@@ -25,7 +27,7 @@ enum ExitCode {
 };
 
 /// Each adds one subcommand to the program; its callback runs it and stores an ExitCode in `exit`.
-void addCompCommand(CLI::App& app, Console& console, int& exit);
+void addCompCommand(CLI::App& app, const std::string& commandLine, Console& console, int& exit);
 void addInspectCommand(CLI::App& app, Console& console, int& exit);
 void addSheetCommand(CLI::App& app, Console& console, int& exit);
 void addPassesCommand(CLI::App& app, Console& console, int& exit);

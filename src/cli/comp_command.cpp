@@ -3,25 +3,31 @@
 #include <tbb/task_arena.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <ostream>
 
 #include "cli/commands.h"
 #include "sequence/comp_batch.h"
 #include "sequence/frame_range.h"
+#include "sequence/frame_thumbnail.h"
 #include "sequence/interrupt.h"
 #include "sequence/memory_bound.h"
 #include "sequence/progress.h"
+#include "sequence/report.h"
 
 namespace kagefude {
 namespace {
 
 struct CompOptions {
-  std::string look, input, output, frames, preview, chunk, maxMemory;
+  std::string commandLine, look, input, output, frames, preview, chunk, maxMemory, report;
   std::vector<std::string> overrides, views;
   std::string existing = "overwrite", progress = "auto";
   int threads = 0;
+  size_t framesAtOnce = 0;
   bool skipBadFrames = false;
 };
 
@@ -49,7 +55,9 @@ CompRequest requestFrom(const CompOptions& options, std::stop_token stop) {
   request.existing = existingFrom(options.existing);
   request.maxMemory =
       options.maxMemory.empty() ? defaultMemoryBound() : parseMemory(options.maxMemory);
+  request.maxFrames = options.framesAtOnce;
   request.skipBadFrames = options.skipBadFrames;
+  request.thumbnails = !options.report.empty();
   request.stop = std::move(stop);
   return request;
 }
@@ -72,12 +80,55 @@ int finish(const BatchResult& result, const std::vector<FrameJob>& jobs,
   return failed ? someFailed : allGood;
 }
 
+/// The report's folder: a chunk has its own below the given one, so that tasks of one job do not
+/// overwrite each other's page.
+std::filesystem::path reportFolder(const CompOptions& options) {
+  const Chunk chunk = options.chunk.empty() ? Chunk{} : parseChunk(options.chunk);
+  if (chunk.count == 1) return options.report;
+  return std::filesystem::path(options.report) /
+         fmt::format("chunk-{}-of-{}", chunk.index, chunk.count);
+}
+
+/// Feeds the page of a run, and writes it anew now and then, so that one may look while it runs.
+class RunReport {
+ public:
+  RunReport(const CompOptions& options, const Look& look) {
+    if (options.report.empty()) return;
+    report_.emplace(
+        reportFolder(options),
+        ReportHeader{options.output, options.commandLine, KAGEFUDE_VERSION, resolvedText(look)},
+        writeThumbnail);
+  }
+
+  void add(const CompEvent& event) {
+    if (!report_) return;
+    const FrameEvent& frame = event.frame;
+    report_->add(
+        {event.job->frame, event.job->view, frame.outcome == FrameOutcome::kept, frame.readSeconds,
+         frame.computeSeconds, frame.writeSeconds, event.warnings, frame.message},
+        event.thumbnail);
+    if (Clock::now() - written_ > std::chrono::seconds(10)) finish();
+  }
+
+  void finish() {
+    if (report_) report_->finish();
+    written_ = Clock::now();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::optional<Report> report_;
+  Clock::time_point written_ = Clock::now();
+};
+
 int comp(const CompOptions& options, Console& console) {
   Interrupts interrupts([](int code) { std::_Exit(code); });
   const Look look = readLook(options.look, options.overrides);
   CompBatch batch(look, requestFrom(options, interrupts.token()));
-  const auto progress =
-      makeProgress(parseProgressKind(options.progress), console.err, console.terminal);
+  const auto progress = makeProgress(parseProgressKind(options.progress), console.err,
+                                     console.terminal, console.columns);
+
+  RunReport report(options, look);
 
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
@@ -89,18 +140,21 @@ int comp(const CompOptions& options, Console& console) {
     result = batch.run([&](const CompEvent& event) {
       const std::string name = event.job->name();
       for (const std::string& warning : event.warnings) progress->warning(name + ": " + warning);
+      report.add(event);
       const FrameEvent& frame = event.frame;
       progress->frame({name, frame.outcome == FrameOutcome::kept, frame.message,
                        frame.readSeconds + frame.computeSeconds + frame.writeSeconds});
     });
   });
+  report.finish();
   return finish(result, batch.jobs(), interrupts, *progress, console);
 }
 
 }  // namespace
 
-void addCompCommand(CLI::App& app, Console& console, int& exit) {
+void addCompCommand(CLI::App& app, const std::string& commandLine, Console& console, int& exit) {
   auto options = std::make_shared<CompOptions>();
+  options->commandLine = commandLine;
   CLI::App* command = app.add_subcommand("comp", "Composite frames with a look");
   command->add_option("look", options->look, "look file (TOML)")->required();
   command->add_option("input", options->input, "frames (EXR), such as in/shot.####.exr")
@@ -112,6 +166,9 @@ void addCompCommand(CLI::App& app, Console& console, int& exit) {
       ->delimiter(',');
   command->add_option("--set", options->overrides, "section.key=value, over the look's own");
   command->add_option("--preview", options->preview, "folder for display-ready PNGs");
+  command->add_option("--report", options->report,
+                      "folder for a page (index.html) about the run; a chunk makes "
+                      "chunk-i-of-n in it");
   command
       ->add_option("--existing", options->existing,
                    "outputs that are there: overwrite, skip, or update what is stale "
@@ -124,6 +181,10 @@ void addCompCommand(CLI::App& app, Console& console, int& exit) {
                       "most memory for frames in flight, such as 8G (three quarters of what is "
                       "free)");
   command->add_option("--threads", options->threads, "threads, 0 to 1024; 0 is one a core (0)")
+      ->check(CLI::Range(0, 1024));
+  command
+      ->add_option("--frames-at-once", options->framesAtOnce,
+                   "most frames worked on at a time; 0 is one a thread (0)")
       ->check(CLI::Range(0, 1024));
   command->add_option("--progress", options->progress, "auto, plain, openjd or none (auto)");
   command->callback([options, &console, &exit] { exit = comp(*options, console); });

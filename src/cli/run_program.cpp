@@ -13,6 +13,23 @@ int report(Console& console, const std::exception& error, int code) {
   return code;
 }
 
+/// The call as a shell would take it again.
+std::string commandLine(int argc, const char* const* argv) {
+  constexpr const char* plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,:=@%+";
+  std::string line;
+  for (int i = 0; i < argc; ++i) {
+    std::string word = argv[i];
+    if (word.empty() || word.find_first_not_of(plain) != std::string::npos) {
+      for (size_t at = 0; (at = word.find('\'', at)) != std::string::npos; at += 4)
+        word.replace(at, 1, "'\\''");
+      word = "'" + word + "'";
+    }
+    line += (i > 0 ? " " : "") + word;
+  }
+  return line;
+}
+
 }  // namespace
 
 int runProgram(int argc, const char* const* argv, Console& console) {
@@ -21,7 +38,7 @@ int runProgram(int argc, const char* const* argv, Console& console) {
   app.set_version_flag("--version", "kagefude " KAGEFUDE_VERSION);
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
-  addCompCommand(app, console, exit);
+  addCompCommand(app, commandLine(argc, argv), console, exit);
   addInspectCommand(app, console, exit);
   addSheetCommand(app, console, exit);
   addPassesCommand(app, console, exit);

@@ -50,10 +50,11 @@ void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& resu
 }
 
 void writePreview(const Look& look, const Colour& colour, const FrameResult& result,
-                  const std::filesystem::path& path) {
+                  const std::filesystem::path& path,
+                  const std::map<std::string, std::string>& texts) {
   Floats r = result.colour.x.clone(), g = result.colour.y.clone(), b = result.colour.z.clone();
   colour.toDisplay(r, g, b, look.colour.display, look.colour.view);
-  writePng(path, r, g, b);
+  writePng(path, r, g, b, {}, 8, texts);
 }
 
 }  // namespace kagefude

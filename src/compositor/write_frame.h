@@ -15,8 +15,10 @@ void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& resu
                 const std::filesystem::path& path,
                 const std::map<std::string, std::string>& attributes);
 
-/// Writes the display-ready preview of a frame as PNG, through the look's display and view.
+/// Writes the display-ready preview of a frame as PNG, through the look's display and view, with
+/// `texts` in its header.
 void writePreview(const Look& look, const Colour& colour, const FrameResult& result,
-                  const std::filesystem::path& path);
+                  const std::filesystem::path& path,
+                  const std::map<std::string, std::string>& texts);
 
 }  // namespace kagefude

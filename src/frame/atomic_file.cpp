@@ -28,7 +28,7 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::fail(int error) {
   error_ = error;
-  throw OutputError(fmt::format("{} cannot be written: {}", finalPath().string(),
+  throw OutputError(fmt::format("cannot write {}: {}", finalPath().string(),
                                 std::generic_category().message(error)));
 }
 

@@ -9,9 +9,9 @@
 
 namespace kagefude {
 
-/// A TempFile with buffered writing and seeking, for encoders that produce bytes: the file appears
-/// under its final name whole, at commit(), or not at all. All errors are OutputError with the
-/// final name and the reason (no such folder, no right to write, disk full).
+/// Bytes for a TempFile, buffered and with seeks: the file appears under its final name whole or
+/// not at all. Without commit(), or on any error, nothing is left. All errors are OutputError with
+/// the final name and the reason (no such folder, no right to write, disk full).
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path finalPath);
@@ -25,7 +25,6 @@ class AtomicFile {
   void commit();
 
   const std::filesystem::path& finalPath() const { return file_.target(); }
-  /// For writers that open the file themselves; then write() and seek() must not be used.
   const std::filesystem::path& temporaryPath() const { return file_.path(); }
 
  private:

@@ -3,6 +3,7 @@
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 
@@ -135,6 +136,22 @@ void Colour::toDisplay(View<float> red, View<float> green, View<float> blue,
 }
 
 const std::string& Colour::source() const { return state_->source; }
+
+std::vector<std::filesystem::path> Colour::files() const {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> files;
+  if (!fs::is_regular_file(state_->source)) return files;
+  files.emplace_back(state_->source);
+  for (int i = 0; i < state_->config->getNumSearchPaths(); ++i) {
+    std::error_code none;
+    const fs::path folder =
+        fs::path(state_->source).parent_path() / state_->config->getSearchPath(i);
+    for (const auto& entry : fs::directory_iterator(folder, none))
+      if (entry.is_regular_file(none)) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
 
 std::string Colour::workingSpace() const {
   return state_->config->getColorSpace(ocio::ROLE_SCENE_LINEAR)->getName();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -36,6 +37,9 @@ class Colour {
 
   /// Where the configuration comes from: a path or "built-in".
   const std::string& source() const;
+  /// The files that transforms may depend on: the configuration and everything in the folders that
+  /// it searches for tables, sorted. Empty for the built-in one.
+  std::vector<std::filesystem::path> files() const;
   std::string workingSpace() const;
   bool hasSpace(std::string_view name) const;
   std::vector<std::string> spaces() const;

@@ -1,12 +1,15 @@
 #include "frame/strip_file.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
 
 #include "base/error.h"
 #include "frame/image_file.h"
+#include "frame/png_file.h"
 #include "frame/read_channels.h"
-#include "image/parallel.h"
 
 namespace kagefude {
 namespace {
@@ -17,37 +20,60 @@ constexpr int64_t mostPixels = int64_t{1} << 26;
   throw InputError(fmt::format("strip {} {}", path.string(), why));
 }
 
-void checkSpec(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
-  if (spec.deep) refuse(path, "is a deep file; flatten it");
-  if (spec.nchannels < 1 || spec.nchannels > 64) {
-    refuse(path, fmt::format("has {} channels; 1 to 64 are allowed", spec.nchannels));
-  }
-  checkClaim(path, spec.width, spec.height, static_cast<int64_t>(spec.pixel_bytes(true)),
-             std::filesystem::file_size(path));
-  if (int64_t{spec.width} * spec.height > mostPixels) {
-    refuse(path, fmt::format("is {} x {} pixels; at most {} are allowed", spec.width, spec.height,
-                             mostPixels));
-  }
+bool startsWith(const std::filesystem::path& path, const std::array<unsigned char, 4>& magic) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 4> start{};
+  file.read(start.data(), start.size());
+  return file && std::equal(magic.begin(), magic.end(), start.begin(),
+                            [](unsigned char a, char b) { return static_cast<char>(a) == b; });
 }
 
-Floats pick(const std::vector<float>& samples, const OIIO::ImageSpec& spec, int channel) {
-  Floats plane(spec.width, spec.height);
-  if (channel < 0) {
-    plane.fill(1.0f);
-    return plane;
-  }
-  parallelRows(spec.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y) {
-      const float* in = samples.data() + static_cast<size_t>(y) * spec.width * spec.nchannels;
-      for (int x = 0; x < spec.width; ++x) plane(x, y) = in[x * spec.nchannels + channel];
-    }
-  });
+Floats pick(const PngPicture& picture, int channel) {
+  const float scale = 1.0f / static_cast<float>((1 << picture.bits) - 1);
+  Floats plane(picture.width, picture.height);
+  const uint16_t* sample = picture.samples.data() + channel;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x, sample += picture.channels)
+      plane(x, y) = static_cast<float>(*sample) * scale;
   return plane;
 }
 
-int channelNamed(const OIIO::ImageSpec& spec, const char* name, int otherwise) {
-  const int index = spec.channelindex(name);
-  return index >= 0 ? index : otherwise;
+StripPicture readPngStrip(const std::filesystem::path& path) {
+  const PngPicture picture = readPng(path);
+  const bool grey = picture.channels < 3;
+  StripPicture strip;
+  strip.red = pick(picture, 0);
+  strip.green = pick(picture, grey ? 0 : 1);
+  strip.blue = pick(picture, grey ? 0 : 2);
+  strip.hasAlpha = picture.channels % 2 == 0;
+  strip.alpha = strip.hasAlpha ? pick(picture, picture.channels - 1)
+                               : Floats(picture.width, picture.height, 1.0f);
+  return strip;
+}
+
+/// R, G, B by name; a file without them is taken for grey by its first channel that is not alpha.
+StripPicture readExrStrip(const std::filesystem::path& path) {
+  const ImageFile image = openImage(path);
+  std::vector<std::string> names = {"R", "G", "B"};
+  for (const std::string& name : names)
+    if (!image.findChannel(name)) {
+      const std::vector<std::string> all = image.channelNames();
+      const auto grey =
+          std::find_if(all.begin(), all.end(), [](const std::string& n) { return n != "A"; });
+      if (grey == all.end()) refuse(path, "has no colour, only alpha");
+      names.assign(3, std::string(*grey));
+      break;
+    }
+  StripPicture strip;
+  strip.hasAlpha = image.findChannel("A") != nullptr;
+  if (strip.hasAlpha) names.push_back("A");
+  std::vector<Floats> planes = readFloats(image, names);
+  strip.red = std::move(planes[0]);
+  strip.green = std::move(planes[1]);
+  strip.blue = std::move(planes[2]);
+  strip.alpha = strip.hasAlpha ? std::move(planes[3]) : Floats(strip.width(), strip.height(), 1.0f);
+  strip.sceneLinear = true;
+  return strip;
 }
 
 }  // namespace
@@ -55,26 +81,14 @@ int channelNamed(const OIIO::ImageSpec& spec, const char* name, int otherwise) {
 StripPicture readStrip(const std::filesystem::path& path) {
   std::error_code missing;
   if (!std::filesystem::is_regular_file(path, missing)) refuse(path, "does not exist");
-  // OIIO would multiply colours by alpha; a strip's colours are wanted as they were painted.
-  OIIO::ImageSpec hints;
-  hints["oiio:UnassociatedAlpha"] = 1;
-  const auto input = OIIO::ImageInput::open(path.string(), &hints);
-  if (!input) refuse(path, "cannot be read: " + OIIO::geterror());
-  const OIIO::ImageSpec spec = input->spec();
-  checkSpec(path, spec);
-  std::vector<float> samples(static_cast<size_t>(spec.width) * spec.height * spec.nchannels);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, samples.data())) {
-    refuse(path, "is truncated or damaged: " + input->geterror());
+  const bool png = startsWith(path, {0x89, 'P', 'N', 'G'});
+  if (!png && !startsWith(path, {0x76, 0x2f, 0x31, 0x01}))
+    refuse(path, "cannot be read: it is neither a PNG nor an EXR file");
+  StripPicture strip = png ? readPngStrip(path) : readExrStrip(path);
+  if (int64_t{strip.width()} * strip.height() > mostPixels) {
+    refuse(path, fmt::format("is {} x {} pixels; at most {} are allowed", strip.width(),
+                             strip.height(), mostPixels));
   }
-  const bool grey = spec.nchannels < 3;
-  const int alpha = spec.alpha_channel >= 0 ? spec.alpha_channel : (spec.nchannels == 2 ? 1 : -1);
-  StripPicture strip;
-  strip.red = pick(samples, spec, grey ? 0 : channelNamed(spec, "R", 0));
-  strip.green = pick(samples, spec, grey ? 0 : channelNamed(spec, "G", 1));
-  strip.blue = pick(samples, spec, grey ? 0 : channelNamed(spec, "B", 2));
-  strip.alpha = pick(samples, spec, alpha);
-  strip.hasAlpha = alpha >= 0;
-  strip.sceneLinear = spec.format.is_floating_point();
   return strip;
 }
 

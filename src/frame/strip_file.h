@@ -17,9 +17,9 @@ struct StripPicture {
   int height() const { return red.height(); }
 };
 
-/// Reads a strip from a PNG, TIFF, EXR or whatever OIIO reads. Throws InputError when it is
-/// missing, unreadable, truncated, deep, above 64 megapixels or of an absurd claim (checkClaim), or
-/// has 0 or more than 64 channels.
+/// Reads a strip from a PNG or EXR, told by its first bytes. Throws InputError when it is missing,
+/// of another format, unreadable, truncated, deep, above 64 megapixels or of an absurd claim
+/// (checkClaim).
 StripPicture readStrip(const std::filesystem::path& path);
 
 }  // namespace kagefude

@@ -49,9 +49,11 @@ struct OutputImage {
 void writeExr(const std::filesystem::path& path, const OutputImage& image);
 
 /// Writes a PNG of display-ready values: 0..1, clamped, rounded to the nearest of 8 (or 16) bits.
-/// `alpha` may be empty; colours are taken as not multiplied by it. Appears whole or not at all.
+/// `alpha` may be empty; colours are taken as not multiplied by it. `texts` become text chunks (keys
+/// of 1 to 79 Latin-1 characters). Appears whole or not at all.
 void writePng(const std::filesystem::path& path, View<const float> red, View<const float> green,
-              View<const float> blue, View<const float> alpha = {}, int bits = 8);
+              View<const float> blue, View<const float> alpha = {}, int bits = 8,
+              const std::map<std::string, std::string>& texts = {});
 
 /// The EXR header that writeExr writes for an image: windows, channels, codec, carried metadata.
 Imf::Header makeHeader(const OutputImage& image);

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/temp_file.h"
 #include "compositor/compose_frame.h"
 #include "compositor/read_frame.h"
 #include "compositor/write_frame.h"
-#include "sequence/fingerprint.h"
+#include "frame/png_file.h"
+#include "sequence/frame_thumbnail.h"
 
 namespace kagefude {
 namespace {
@@ -34,6 +37,21 @@ void removeLeftoversOf(const std::vector<FrameJob>& jobs) {
   for (const auto& folder : folders) removeLeftovers(folder.empty() ? "." : folder);
 }
 
+/// What is the same for all frames of a run.
+Fingerprint commonFingerprint(const Look& look, const Colour& colour) {
+  Fingerprint print;
+  print.add("version", KAGEFUDE_VERSION).add("look", resolvedText(look));
+  for (const StyleLook& style : look.styles)
+    if (!isBuiltinStrip(style.style.strip)) print.addFile("strip", look.resolve(style.style.strip));
+  for (const auto& file : colour.files()) print.addFile("colour", file);
+  return print;
+}
+
+void addDepthMaps(const FramePlan& plan, Fingerprint& print) {
+  for (const FrameLight& light : plan.lights)
+    if (light.depthMap) print.addFile("depth map", light.depthMap->file);
+}
+
 }  // namespace
 
 struct CompBatch::Read {
@@ -52,10 +70,11 @@ CompBatch::CompBatch(const Look& look, CompRequest request)
     : look_(look),
       request_(std::move(request)),
       jobs_(planFrames(request_.plan)),
-      lookText_(resolvedText(look)),
       colour_(look.colourConfig()),
       strips_(look, colour_),
-      warnings_(jobs_.size()) {
+      common_(commonFingerprint(look, colour_)),
+      warnings_(jobs_.size()),
+      thumbnails_(jobs_.size()) {
   if (jobs_.empty()) return;
   try {
     planFrame(look_, jobs_.front().inputs.front(), jobs_.front().frame);
@@ -64,55 +83,65 @@ CompBatch::CompBatch(const Look& look, CompRequest request)
   }
 }
 
-std::string CompBatch::fingerprint(const FrameJob& job) const {
-  Fingerprint print;
-  print.add("version", KAGEFUDE_VERSION).add("look", lookText_);
-  for (const StyleLook& style : look_.styles)
-    if (!isBuiltinStrip(style.style.strip))
-      print.addFile("strip", look_.resolve(style.style.strip));
+Fingerprint CompBatch::fingerprint(const FrameJob& job) const {
+  Fingerprint print = common_;
+  print.add("frame", int64_t{job.frame});
   for (const auto& input : job.inputs)
     print.addFile("input", input).addFile("sidecar", sidecarPath(input));
-  return print.hex();
+  return print;
 }
 
-bool CompBatch::isDone(size_t index) const {
-  if (request_.existing == ExistingOutputs::overwrite) return false;
-  const FrameJob& job = jobs_[index];
-  for (const auto& output : job.outputs)
-    if (!std::filesystem::exists(output)) return false;
-  if (request_.existing == ExistingOutputs::skip) return true;
+bool CompBatch::isUpToDate(const FrameJob& job) const {
   try {
-    return openImage(job.outputs.front()).text(kFingerprintAttribute) == fingerprint(job);
+    Fingerprint print = fingerprint(job);
+    addDepthMaps(planFrame(look_, job.inputs.front(), job.frame), print);
+    if (openImage(job.outputs.front()).text(kFingerprintAttribute) != print.hex()) return false;
+    for (size_t i = 1; i < job.outputs.size(); ++i)
+      if (readPngText(job.outputs[i], kFingerprintAttribute) != print.hex()) return false;
+    return true;
   } catch (const InputError&) {
     return false;  // what cannot be read is not done
   }
 }
 
+bool CompBatch::isDone(size_t index) {
+  if (request_.existing == ExistingOutputs::overwrite) return false;
+  const FrameJob& job = jobs_[index];
+  for (const auto& output : job.outputs)
+    if (!std::filesystem::exists(output)) return false;
+  if (request_.existing == ExistingOutputs::update && !isUpToDate(job)) return false;
+  if (request_.thumbnails)
+    thumbnails_[index] = storedThumbnail(look_, colour_, job.outputs.front());
+  return true;
+}
+
 CompBatch::Read CompBatch::read(size_t index) const {
   const FrameJob& job = jobs_[index];
   if (job.missing) throw InputError(fmt::format("{} is not there", job.missing->string()));
-  std::string print = fingerprint(job);
+  Fingerprint print = fingerprint(job);
   FramePlan plan = planFrame(look_, job.inputs.front(), job.frame);
+  addDepthMaps(plan, print);
   FramePlanes planes = readFramePlanes(plan);
-  return {std::move(plan), std::move(planes), std::move(print)};
+  return {std::move(plan), std::move(planes), print.hex()};
 }
 
 CompBatch::Composed CompBatch::compose(size_t index, Read input) {
   FrameResult result = composeFrame(look_, strips_, input.plan, std::move(input.planes));
   warnings_[index] = result.warnings;
+  if (request_.thumbnails) thumbnails_[index] = frameThumbnail(look_, colour_, result.colour);
   return {std::move(input.plan), std::move(result), std::move(input.fingerprint)};
 }
 
 void CompBatch::write(size_t index, Composed output) const {
   const std::vector<std::filesystem::path>& paths = jobs_[index].outputs;
-  // The EXR last: it carries the fingerprint that says all outputs of the frame are there.
+  const std::map<std::string, std::string> attributes = {
+      {kFingerprintAttribute, output.fingerprint}};
   for (size_t i = 1; i < paths.size(); ++i) {
     makeFolderOf(paths[i]);
-    writePreview(look_, colour_, output.result, paths[i]);
+    writePreview(look_, colour_, output.result, paths[i], attributes);
   }
   makeFolderOf(paths.front());
-  writeFrame(look_, output.plan, output.result, paths.front(),
-             {{kFingerprintAttribute, output.fingerprint}});
+  writeFrame(look_, output.plan, output.result, paths.front(), attributes);
 }
 
 BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame) {
@@ -127,10 +156,12 @@ BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame)
   stages.isDone = [this](size_t i) { return isDone(i); };
   BatchOptions options;
   options.maxMemory = request_.maxMemory;
+  options.maxFrames = request_.maxFrames;
   options.skipBadFrames = request_.skipBadFrames;
   options.stop = request_.stop;
   options.onFrame = [&](const FrameEvent& event) {
-    onFrame({&jobs_[event.index], event, std::move(warnings_[event.index])});
+    onFrame({&jobs_[event.index], event, std::move(warnings_[event.index]),
+             std::move(thumbnails_[event.index])});
   };
   return runBatch(jobs_.size(), stages, options);
 }

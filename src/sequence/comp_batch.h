@@ -9,7 +9,9 @@
 #include "frame/colour.h"
 #include "look/look.h"
 #include "sequence/batch.h"
+#include "sequence/fingerprint.h"
 #include "sequence/frame_plan.h"
+#include "sequence/report.h"
 
 namespace kagefude {
 
@@ -21,7 +23,9 @@ struct CompRequest {
   PlanRequest plan;  ///< outputs[0] is the EXR, outputs[1], if any, the preview
   ExistingOutputs existing = ExistingOutputs::overwrite;
   size_t maxMemory = 0;
+  size_t maxFrames = 0;  ///< in flight; 0 is one a thread
   bool skipBadFrames = false;
+  bool thumbnails = false;  ///< makes a thumbnail of every frame, of kept ones from their output
   std::stop_token stop;
 };
 
@@ -30,6 +34,7 @@ struct CompEvent {
   const FrameJob* job = nullptr;
   FrameEvent frame;
   std::vector<std::string> warnings;
+  Thumbnail thumbnail;  ///< empty unless asked for, and of a failed frame
 };
 
 /// Comps a sequence with one look. Plans every job and opens the first frame before anything is
@@ -49,16 +54,20 @@ class CompBatch {
   Read read(size_t index) const;
   Composed compose(size_t index, Read input);
   void write(size_t index, Composed output) const;
-  bool isDone(size_t index) const;
-  std::string fingerprint(const FrameJob& job) const;
+  bool isDone(size_t index);
+  bool isUpToDate(const FrameJob& job) const;
+  /// Of everything that decides a frame's pixels. Files are looked at before they are read, so that
+  /// one which changes meanwhile makes the frame stale.
+  Fingerprint fingerprint(const FrameJob& job) const;
 
   const Look& look_;
   CompRequest request_;
   std::vector<FrameJob> jobs_;
-  std::string lookText_;
   Colour colour_;
   StripSet strips_;
+  Fingerprint common_;                              ///< program, look and its files
   std::vector<std::vector<std::string>> warnings_;  ///< by job; written by its own stage only
+  std::vector<Thumbnail> thumbnails_;               ///< likewise
 };
 
 }  // namespace kagefude

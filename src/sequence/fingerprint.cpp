@@ -1,10 +1,11 @@
 #include "sequence/fingerprint.h"
 
-#include <OpenImageIO/hash.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
 
 #include <cerrno>
 #include <cstring>
@@ -65,17 +66,18 @@ class OpenFile {
 
 }  // namespace
 
-Fingerprint::Fingerprint() : digest_(40, '0') {}
+Fingerprint::Fingerprint() : digest_(32, '0') {}
 
 Fingerprint& Fingerprint::add(std::string_view label, std::string_view bytes) {
-  OIIO::SHA1 sha(digest_.data(), digest_.size());
   const std::string lengths = fmt::format("|{}|{}|", label.size(), bytes.size());
-  sha.append(lengths.data(), lengths.size());
-  sha.append(label.data(), label.size());
-  sha.append(bytes.data(), bytes.size());
-  unsigned char hash[20];
-  sha.gethash(hash);
-  digest_ = fmt::format("{:02x}", fmt::join(hash, ""));
+  XXH3_state_t state;
+  XXH3_128bits_reset(&state);
+  for (const std::string_view piece :
+       {std::string_view(digest_), std::string_view(lengths), label, bytes})
+    XXH3_128bits_update(&state, piece.data(), piece.size());
+  XXH128_canonical_t canonical;
+  XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(&state));
+  digest_ = fmt::format("{:02x}", fmt::join(canonical.digest, ""));
   return *this;
 }
 
@@ -100,6 +102,6 @@ Fingerprint& Fingerprint::addFile(std::string_view label, const std::filesystem:
   return add("samples", samples + opened.bytes(size - kSample, kSample));
 }
 
-std::string Fingerprint::hex() const { return digest_.substr(0, 32); }
+std::string Fingerprint::hex() const { return digest_; }
 
 }  // namespace kagefude

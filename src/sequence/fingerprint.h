@@ -13,8 +13,8 @@ constexpr const char* kFingerprintAttribute = "kagefude/fingerprint";
 /// Names what a frame was made from, so that `--existing update` can tell a stale output from a
 /// right one: feed it the program's version, the look with every value resolved, and each input
 /// file; equal hexes mean equal inputs. Order counts, and each piece is hashed with its label and
-/// length, so no two different lists run together. It is the first 128 bits of a SHA-1 and the same
-/// on every machine.
+/// length, so no two different lists run together. It is the 128 bits of XXH3
+/// and the same on every machine; it tells change, it does not guard against forgery.
 class Fingerprint {
  public:
   Fingerprint();

@@ -131,7 +131,7 @@ TEST(WriteExr, RefusesWrongPlanesAndLeavesNothing) {
 TEST(WriteExr, MissingFolderIsNamed) {
   const TemporaryFolder folder;
   expectContains(messageOf<OutputError>([&] { writeChannels(folder / "no/a.exr", {"R"}); }),
-                 "/no: No such file or directory");
+                 "no: No such file or directory");
 }
 
 // A limit on file size fails writes as a full disk does; the signal that comes with it is ignored.

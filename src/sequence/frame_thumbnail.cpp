@@ -1,0 +1,75 @@
+#include "sequence/frame_thumbnail.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "frame/atomic_file.h"
+#include "frame/png_file.h"
+#include "frame/read_channels.h"
+
+namespace kagefude {
+namespace {
+
+constexpr int64_t longestSide = 320;
+
+Floats reduced(View<const float> plane, int width, int height) {
+  Floats small(width, height);
+  const auto edge = [](int i, int of, int smaller) {
+    return static_cast<int>(int64_t{i} * of / smaller);
+  };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int left = edge(x, plane.width, width), right = edge(x + 1, plane.width, width);
+      const int top = edge(y, plane.height, height), bottom = edge(y + 1, plane.height, height);
+      double sum = 0;
+      for (int v = top; v < bottom; ++v)
+        for (int u = left; u < right; ++u) sum += plane(u, v);
+      small(x, y) = static_cast<float>(sum / (double(right - left) * (bottom - top)));
+    }
+  return small;
+}
+
+uint8_t byteOf(float value) {
+  if (!(value > 0.0f)) return 0;  // NaN as well
+  return value < 1.0f ? static_cast<uint8_t>(value * 255.0f + 0.5f) : 255;
+}
+
+}  // namespace
+
+Thumbnail frameThumbnail(const Look& look, const Colour& colour, Vec3View picture) {
+  Thumbnail thumbnail;
+  const int64_t width = picture.width(), height = picture.height();
+  const int64_t longest = std::max({width, height, longestSide});
+  thumbnail.width = static_cast<int>(std::max<int64_t>(1, width * longestSide / longest));
+  thumbnail.height = static_cast<int>(std::max<int64_t>(1, height * longestSide / longest));
+  Floats r = reduced(picture.x, thumbnail.width, thumbnail.height);
+  Floats g = reduced(picture.y, thumbnail.width, thumbnail.height);
+  Floats b = reduced(picture.z, thumbnail.width, thumbnail.height);
+  colour.toDisplay(r, g, b, look.colour.display, look.colour.view);
+  for (int y = 0; y < thumbnail.height; ++y)
+    for (int x = 0; x < thumbnail.width; ++x)
+      for (const Floats* plane : {&r, &g, &b}) thumbnail.rgb.push_back(byteOf((*plane)(x, y)));
+  return thumbnail;
+}
+
+Thumbnail storedThumbnail(const Look& look, const Colour& colour,
+                          const std::filesystem::path& path) {
+  try {
+    std::vector<Floats> planes =
+        readFloats(openImage(path), std::vector<std::string>{"R", "G", "B"});
+    return frameThumbnail(look, colour, {planes[0], planes[1], planes[2]});
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+void writeThumbnail(const std::filesystem::path& path, const Thumbnail& thumbnail) {
+  PngPicture picture{thumbnail.width, thumbnail.height, 3, 8, {}};
+  picture.samples.assign(thumbnail.rgb.begin(), thumbnail.rgb.end());
+  const std::vector<unsigned char> bytes = encodePng(picture, {});
+  AtomicFile file(path);
+  file.write(bytes.data(), bytes.size());
+  file.commit();
+}
+
+}  // namespace kagefude
