@@ -5,9 +5,9 @@
 #include "base/glob.h"
 #include "compositor/frame_edges.h"
 #include "compositor/frame_tone.h"
+#include "compositor/paint_styles.h"
 #include "compositor/styled_surfaces.h"
 #include "image/parallel.h"
-#include "passes/brush_map.h"
 #include "passes/surfaces.h"
 
 namespace kagefude {
@@ -70,10 +70,8 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
   adjustTone(tone, styled.anchorIndex, styled.tones);
   if (sink) sink->number("brush.tone", tone);
-  BrushParams params = look.passes.brush;
-  params.diagnostics = sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");
-  BrushResult brush = applyBrush(planes.position, planes.normal, tone, styled.anchorIndex,
-                                 styled.anchors, strips.strips(), params);
+  const bool diagnostics = sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");
+  BrushResult brush = paintStyles(strips, planes, tone, styled, diagnostics);
   if (sink) {
     sink->number("brush.angle", brush.angle);
     sink->number("brush.repeat", brush.repeat);

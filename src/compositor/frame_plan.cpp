@@ -70,7 +70,8 @@ void planCoverage(const Look& look, const AovNames& names, FramePlan& plan) {
 }
 
 bool wantsOutlines(const Look& look) {
-  return matchesAny("outline", look.output.layers) || anyStyleHas(look, &StyleParams::outlineColour);
+  return matchesAny("outline", look.output.layers) ||
+         anyStyleHas(look, &StyleParams::outlineColour);
 }
 
 void nameObjectsFromSidecar(FramePlan& plan) {

@@ -159,6 +159,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     BrushSubject subject = subjectOf(style.style, plan, light, index, number, planes, warnings);
     subject.strip = strips.indexOf(style.style.strip);
     result.anchors.push_back(makeBrushAnchor(subject, light.light, style.passes.brush));
+    result.brushes.push_back(style.passes.brush);
     result.tones.push_back(style.passes.tone);
     result.multiplies.push_back(multipliesColour(style.style));
     const std::vector<float>& line = style.style.outlineColour;

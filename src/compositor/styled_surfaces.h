@@ -14,8 +14,9 @@ namespace kagefude {
 struct StyledSurfaces {
   Plane<uint16_t> anchorIndex;  ///< 0 = background, i -> anchors[i - 1]
   std::vector<BrushAnchor> anchors;
-  std::vector<ToneParams> tones;  ///< per anchor
-  std::vector<bool> multiplies;   ///< per anchor: the strip multiplies the surface's colour
+  std::vector<BrushParams> brushes;  ///< per anchor
+  std::vector<ToneParams> tones;     ///< per anchor
+  std::vector<bool> multiplies;      ///< per anchor: the strip multiplies the surface's colour
   std::vector<std::optional<V3f>> outlines;  ///< per anchor: colour of its outlines
 };
 

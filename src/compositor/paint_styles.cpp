@@ -1,0 +1,80 @@
+#include "compositor/paint_styles.h"
+
+#include <algorithm>
+
+#include "image/parallel.h"
+
+namespace kagefude {
+namespace {
+
+bool sameParams(const BrushParams& a, const BrushParams& b) {
+  return std::all_of(std::begin(brushParameters), std::end(brushParameters),
+                     [&](const Parameter& p) { return p.get(&a) == p.get(&b); });
+}
+
+/// The number of the first anchor with the same parameters, for each anchor.
+std::vector<size_t> groupsOf(const std::vector<BrushParams>& params) {
+  std::vector<size_t> groups;
+  for (const BrushParams& own : params) {
+    const auto first = std::find_if(params.begin(), params.end(), [&](const BrushParams& other) {
+      return sameParams(own, other);
+    });
+    groups.push_back(static_cast<size_t>(first - params.begin()));
+  }
+  return groups;
+}
+
+Plane<uint16_t> onlyGroup(View<const uint16_t> index, const std::vector<size_t>& groups,
+                          size_t group) {
+  Plane<uint16_t> own(index.width, index.height);
+  parallelRows(index.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < index.width; ++x) {
+        const uint16_t anchor = index(x, y);
+        own(x, y) = anchor != 0 && groups[anchor - 1u] == group ? anchor : uint16_t{0};
+      }
+  });
+  return own;
+}
+
+/// Pixels of other groups are all zero in both results, so the sum is the union.
+void addInto(Floats& sum, const Floats& part) {
+  if (part.empty()) return;
+  parallelRows(sum.height(), [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < sum.width(); ++x) sum(x, y) += part(x, y);
+  });
+}
+
+}  // namespace
+
+BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<const float> tone,
+                        const StyledSurfaces& styled, bool diagnostics) {
+  const auto paint = [&](View<const uint16_t> index, BrushParams params) {
+    params.diagnostics = diagnostics;
+    return applyBrush(planes.position, planes.normal, tone, index, styled.anchors, strips.strips(),
+                      params);
+  };
+  const std::vector<size_t> groups = groupsOf(styled.brushes);
+  const bool oneGroup = std::all_of(groups.begin(), groups.end(), [](size_t g) { return g == 0; });
+  if (oneGroup)
+    return paint(styled.anchorIndex, styled.brushes.empty() ? BrushParams{} : styled.brushes[0]);
+  BrushResult result;
+  for (size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i] != i) continue;
+    BrushResult part = paint(onlyGroup(styled.anchorIndex, groups, i), styled.brushes[i]);
+    if (result.r.empty()) {
+      result = std::move(part);
+      continue;
+    }
+    addInto(result.r, part.r);
+    addInto(result.g, part.g);
+    addInto(result.b, part.b);
+    addInto(result.a, part.a);
+    addInto(result.angle, part.angle);
+    addInto(result.repeat, part.repeat);
+  }
+  return result;
+}
+
+}  // namespace kagefude

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "compositor/frame_planes.h"
+#include "compositor/strip_set.h"
+#include "compositor/styled_surfaces.h"
+#include "passes/brush_map.h"
+
+namespace kagefude {
+
+/// Lays the strokes of every style (see applyBrush): styles whose brush parameters are equal in one
+/// go, the others one after the other. `diagnostics` asks for the angle and repeat planes.
+BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<const float> tone,
+                        const StyledSurfaces& styled, bool diagnostics);
+
+}  // namespace kagefude
