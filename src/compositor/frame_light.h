@@ -9,6 +9,7 @@
 #include "frame/sidecar.h"
 #include "look/look.h"
 #include "passes/light.h"
+#include "passes/light_shape.h"
 
 namespace kagefude {
 
@@ -25,15 +26,19 @@ struct FrameLight {
   std::string name;
   Light light;
   V3f subjectCentre{0, 0, 0};
-  float subjectRadius = 0;          ///< 0: unknown
-  float weight = 1;                 ///< share of the tone, before normalising over lights
+  float subjectRadius = 0;                   ///< 0: unknown
+  float weight = 1;                          ///< share of the tone, before normalising over lights
   ShadowMethod method = ShadowMethod::none;  ///< never `automatic`
   float strength = 1;
   PassParams passes;
   std::vector<std::string> maskChannels;  ///< of the masks that the method needs
   std::vector<V2f> places;                ///< of the same masks on the light, in radii
+  std::optional<LightGeometry> geometry;  ///< what moves the light from mask to mask
   std::optional<DepthMapSource> depthMap;
 };
+
+/// Whether a method reads the light's depth map.
+bool needsDepthMap(ShadowMethod method);
 
 /// The lights that take part in a frame, in the sidecar's order, then those that only the look
 /// describes. Throws InputError when a light lacks what its method needs, naming what to export;

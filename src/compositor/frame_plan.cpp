@@ -164,7 +164,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   for (const FrameLight& light : plan.lights) {
     LightPlanes& own = planes.lights.emplace_back();
     for (size_t i = 0; i < light.maskChannels.size(); ++i) own.masks.push_back(toMask(read[next++]));
-    if (light.method == ShadowMethod::pcf) own.depthMap = readDepthMap(*light.depthMap);
+    if (needsDepthMap(light.method)) own.depthMap = readDepthMap(*light.depthMap);
   }
   planes.objectId = readIds(plan.image, plan.objectId, plan.idSource);
   if (plan.materialId)
