@@ -31,6 +31,17 @@ void applySettings(const Look& look, const LightLook* settings, FrameLight& ligh
   light.passes = settings ? settings->passes : look.passes;
 }
 
+/// World vectors of one unit of place; nothing for a pair, which lies along the light's axis.
+std::optional<LightGeometry> geometryOf(const SidecarLight& source) {
+  if (!source.masks || source.masks->arrangement == MaskArrangement::pair ||
+      source.axisU == V3d(0, 0, 0))
+    return std::nullopt;
+  const double offset = source.masks->offset;
+  return LightGeometry{source.type == LightType::sun, toFloat(source.position),
+                       toFloat(source.direction), toFloat(source.axisU * offset),
+                       toFloat(source.axisV * offset)};
+}
+
 /// Irradiance at the subject up to a constant: how much this light shapes the tone.
 float weightOf(const SidecarLight& light) {
   const double luminance =
@@ -80,6 +91,7 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source) {
   if (source.depthMap)
     light.depthMap = {source.depthMap->file, source.depthMap->channel,
                       source.depthMap->lightFromWorld, source.depthMap->clipFromLight};
+  light.geometry = geometryOf(source);
   if (needsMasks(light.method) && source.masks)
     for (const MaskSample& sample : source.masks->samples) {
       light.maskChannels.push_back(sample.layer);
@@ -184,11 +196,11 @@ std::string_view methodName(ShadowMethod method) {
 }
 
 void checkMethod(const FrameLight& light) {
-  if (light.method == ShadowMethod::pcf && !light.depthMap)
+  if (needsDepthMap(light.method) && !light.depthMap)
     throw InputError(fmt::format(
-        "light {} has no depth map, which shadow.method = \"pcf\" needs; export it again with the "
+        "light {} has no depth map, which shadow.method = \"{}\" needs; export it again with the "
         "exporter, which writes one for each light",
-        light.name));
+        light.name, methodName(light.method)));
   if (!needsMasks(light.method)) return;
   const size_t needed = light.method == ShadowMethod::disc ? 5 : 2;
   if (light.maskChannels.size() < needed)
@@ -207,6 +219,10 @@ void checkMethod(const FrameLight& light) {
 }
 
 }  // namespace
+
+bool needsDepthMap(ShadowMethod method) {
+  return method == ShadowMethod::pcf || method == ShadowMethod::pcss;
+}
 
 std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
                                      const ImageFile& image, int frame) {

@@ -9,6 +9,7 @@
 #include "frame/sidecar.h"
 #include "look/look.h"
 #include "passes/light.h"
+#include "passes/light_shape.h"
 
 namespace kagefude {
 
@@ -32,8 +33,12 @@ struct FrameLight {
   PassParams passes;
   std::vector<std::string> maskChannels;  ///< of the masks that the method needs
   std::vector<V2f> places;                ///< of the same masks on the light, in radii
+  std::optional<LightGeometry> geometry;  ///< what moves the light from mask to mask
   std::optional<DepthMapSource> depthMap;
 };
+
+/// Whether a method reads the light's depth map.
+bool needsDepthMap(ShadowMethod method);
 
 /// The lights that take part in a frame, in the sidecar's order, then those that only the look
 /// describes. Throws InputError when a light lacks what its method needs, naming what to export;

@@ -37,7 +37,8 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
   std::vector<Floats> tones;
   for (size_t i = 0; i < plan.lights.size(); ++i) {
     const FrameLight& light = plan.lights[i];
-    Floats visibility = lightVisibility(light, planes.lights[i], planes, surfaces, sink);
+    LightVisibility shadow = lightVisibility(light, planes.lights[i], planes, surfaces, sink);
+    Floats visibility = std::move(shadow.visibility);
     Floats tone =
         lambertShade(planes.normal, planes.position, surfaces, light.light, light.passes.shade);
     if (sink) sink->number(fmt::format("shade of {}", light.name), tone);
@@ -47,6 +48,9 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
     const std::string name = fmt::format("visibility.{}", light.name);
     if (matchesAny(name, look.output.layers))
       result.layers.push_back({name, std::move(visibility)});
+    const std::string confidence = fmt::format("shadowConfidence.{}", light.name);
+    if (matchesAny(confidence, look.output.layers))
+      result.layers.push_back({confidence, std::move(shadow.confidence)});
   }
   if (tones.size() == 1) return std::move(tones.front());
   Floats sum(planes.width, planes.height);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include "passes/classes.h"
+#include "passes/light_shape.h"
 #include "passes/pair_search.h"
 #include "passes/pcf.h"
+#include "passes/pcss.h"
 #include "passes/smooth.h"
 
 namespace kagefude {
@@ -23,34 +25,63 @@ void showMasks(const FrameLight& light, const LightPlanes& planes, View<const ui
                  classifyShadow(viewsOf(planes.masks), surfaces).view());
 }
 
-Floats unsmoothed(const FrameLight& light, const LightPlanes& planes, const FramePlanes& frame,
-                  View<const uint32_t> surfaces) {
+/// What a search must not leave, as the look asks.
+View<const uint32_t> boundBy(SearchBound bound, const FramePlanes& frame,
+                             View<const uint32_t> surfaces) {
+  return bound == SearchBound::surface ? surfaces : frame.objectId.view();
+}
+
+LightVisibility fromShape(const FrameLight& light, const LightPlanes& planes,
+                          const FramePlanes& frame, View<const uint32_t> surfaces) {
+  const LightShapeParams& params = light.passes.lightShape;
+  LightShapeResult shape = lightShapeVisibility(
+      viewsOf(planes.masks), light.places, boundBy(params.bound, frame, surfaces), frame.position,
+      frame.normal, light.geometry, params);
+  return {std::move(shape.visibility), std::move(shape.confidence)};
+}
+
+Floats fromDepth(const FrameLight& light, const LightPlanes& planes, const FramePlanes& frame,
+                 View<const uint32_t> surfaces) {
+  const ShadowMap map{planes.depthMap, light.depthMap->lightFromWorld,
+                      light.depthMap->clipFromLight};
+  if (light.method == ShadowMethod::pcf)
+    return pcfVisibility(frame.position, frame.normal, surfaces, map, light.passes.pcf);
+  return pcssVisibility(frame.position, frame.normal, surfaces, map, light.light.radius,
+                        light.passes.pcss);
+}
+
+LightVisibility measured(const FrameLight& light, const LightPlanes& planes,
+                         const FramePlanes& frame, View<const uint32_t> surfaces) {
+  const auto sure = [&] { return Floats(frame.width, frame.height, 1.0f); };
   switch (light.method) {
-    case ShadowMethod::pair:
-      return pairVisibility(
-          planes.masks.at(0), planes.masks.at(1),
-          light.passes.pair.bound == SearchBound::surface ? surfaces : frame.objectId,
-          light.passes.pair);
-    case ShadowMethod::pcf: {
-      const ShadowMap map{planes.depthMap, light.depthMap->lightFromWorld,
-                          light.depthMap->clipFromLight};
-      return pcfVisibility(frame.position, frame.normal, surfaces, map, light.passes.pcf);
+    case ShadowMethod::pair: {
+      const PairParams& params = light.passes.pair;
+      const View<const uint32_t> labels = boundBy(params.bound, frame, surfaces);
+      const Floats raw = pairVisibility(planes.masks.at(0), planes.masks.at(1), labels, params);
+      return {smoothWithinSurfaces(raw, surfaces, light.passes.smooth), sure()};
+    }
+    case ShadowMethod::line:
+    case ShadowMethod::disc:
+      return fromShape(light, planes, frame, surfaces);
+    case ShadowMethod::pcf:
+    case ShadowMethod::pcss: {
+      const Floats raw = fromDepth(light, planes, frame, surfaces);
+      return {smoothWithinSurfaces(raw, surfaces, light.passes.smooth), sure()};
     }
     default:
-      return Floats(frame.width, frame.height, 1.0f);
+      return {sure(), sure()};
   }
 }
 
 }  // namespace
 
-Floats lightVisibility(const FrameLight& light, const LightPlanes& planes, const FramePlanes& frame,
-                       View<const uint32_t> surfaces, StageSink* sink) {
+LightVisibility lightVisibility(const FrameLight& light, const LightPlanes& planes,
+                                const FramePlanes& frame, View<const uint32_t> surfaces,
+                                StageSink* sink) {
   if (sink) showMasks(light, planes, surfaces, *sink);
-  Floats visibility = unsmoothed(light, planes, frame, surfaces);
-  if (light.method != ShadowMethod::none)
-    visibility = smoothWithinSurfaces(visibility, surfaces, light.passes.smooth);
-  if (sink) sink->number(fmt::format("visibility.{}", light.name), visibility);
-  return visibility;
+  LightVisibility result = measured(light, planes, frame, surfaces);
+  if (sink) sink->number(fmt::format("visibility.{}", light.name), result.visibility);
+  return result;
 }
 
 }  // namespace kagefude

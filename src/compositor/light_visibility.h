@@ -6,9 +6,16 @@
 
 namespace kagefude {
 
-/// One light's visibility by the method chosen for it, smoothed within surfaces (002 section
-/// 4.2.2): 1 = the light is fully seen. Background is 1. `sink` may be null.
-Floats lightVisibility(const FrameLight& light, const LightPlanes& planes, const FramePlanes& frame,
-                       View<const uint32_t> surfaces, StageSink* sink);
+struct LightVisibility {
+  Floats visibility;  ///< 1 = the light is fully seen; background is 1
+  Floats confidence;  ///< 1 = measured, 0 = extrapolated; 1 for methods that do not tell
+};
+
+/// One light's visibility by the method chosen for it. What pair, pcf and pcss give is smoothed
+/// within surfaces (002 section 4.2.2); disc and line are smooth of themselves, and a window would
+/// only blur their contacts. `sink` may be null.
+LightVisibility lightVisibility(const FrameLight& light, const LightPlanes& planes,
+                                const FramePlanes& frame, View<const uint32_t> surfaces,
+                                StageSink* sink);
 
 }  // namespace kagefude

@@ -93,7 +93,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
       own.masks.push_back(toMask(mask));
       mask = Floats();
     }
-    if (plan.lights[i].method == ShadowMethod::pcf)
+    if (needsDepthMap(plan.lights[i].method))
       own.depthMap = readDepthMap(*plan.lights[i].depthMap);
   }
   planes.objectId = idsFrom(objects, plan.idSource);

@@ -14,10 +14,16 @@ constexpr PassEntry entry(const ParameterTable& table) {
 }
 
 constexpr std::array passes{
-    entry<&PassParams::surfaces>(surfacesTable), entry<&PassParams::pair>(pairTable),
-    entry<&PassParams::pcf>(pcfTable),           entry<&PassParams::smooth>(smoothTable),
-    entry<&PassParams::shade>(shadeTable),       entry<&PassParams::merge>(mergeTable),
-    entry<&PassParams::tone>(toneTable),         entry<&PassParams::brush>(brushTable),
+    entry<&PassParams::surfaces>(surfacesTable),
+    entry<&PassParams::pair>(pairTable),
+    entry<&PassParams::lightShape>(lightShapeTable),
+    entry<&PassParams::pcf>(pcfTable),
+    entry<&PassParams::pcss>(pcssTable),
+    entry<&PassParams::smooth>(smoothTable),
+    entry<&PassParams::shade>(shadeTable),
+    entry<&PassParams::merge>(mergeTable),
+    entry<&PassParams::tone>(toneTable),
+    entry<&PassParams::brush>(brushTable),
     entry<&PassParams::outline>(outlineTable),
 };
 

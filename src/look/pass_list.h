@@ -4,10 +4,12 @@
 
 #include "passes/brush_params.h"
 #include "passes/lambert.h"
+#include "passes/light_shape.h"
 #include "passes/merge.h"
 #include "passes/outline.h"
 #include "passes/pair_search.h"
 #include "passes/pcf.h"
+#include "passes/pcss.h"
 #include "passes/smooth.h"
 #include "passes/surfaces.h"
 #include "passes/tone.h"
@@ -19,7 +21,9 @@ namespace kagefude {
 struct PassParams {
   SurfacesParams surfaces;
   PairParams pair;
+  LightShapeParams lightShape;
   PcfParams pcf;
+  PcssParams pcss;
   SmoothParams smooth;
   LambertParams shade;
   MergeParams merge;

@@ -10,9 +10,9 @@
 // The look's sections that are not a pass's own parameters. Each is declared once, here.
 namespace kagefude {
 
-enum class ShadowMethod { automatic, none, pair, line, disc, pcf };
-inline constexpr std::string_view shadowMethodNames[] = {"auto", "none", "pair",
-                                                         "line", "disc", "pcf"};
+enum class ShadowMethod { automatic, none, pair, line, disc, pcf, pcss };
+inline constexpr std::string_view shadowMethodNames[] = {"auto", "none", "pair", "line",
+                                                         "disc", "pcf",  "pcss"};
 
 /// [shadow]: how each light's visibility is found.
 struct ShadowParams {
@@ -70,10 +70,10 @@ struct OutputParams {
   Compression compression = Compression::zip;
 };
 inline constexpr Parameter outputParameters[] = {
-    plain<&OutputParams::layers>(
-        "layers",
-        "layers beside R,G,B,A, names or globs: visibility.<light>, brush.tone, "
-        "brush.angle, brush.repeat, surface.id"),
+    plain<&OutputParams::layers>("layers",
+                                 "layers beside R,G,B,A, names or globs: visibility.<light>, "
+                                 "shadowConfidence.<light>, brush.tone, "
+                                 "brush.angle, brush.repeat, surface.id"),
     plain<&OutputParams::passthrough>("passthrough",
                                       "also writes every other input channel unchanged"),
     choice<&OutputParams::background>("background", backgroundNames,

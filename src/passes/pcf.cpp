@@ -5,42 +5,19 @@
 #include <vector>
 
 #include "image/parallel.h"
-#include "image/real_math.h"
 #include "passes/depth_pyramid.h"
-#include "passes/map_receiver.h"
+#include "passes/map_taps.h"
 #include "passes/require_size.h"
 
 namespace kagefude {
 namespace {
 
 constexpr float largestRadius = 1024.0f;
-constexpr float goldenTurn = 0.38196601125f;
-
-/// n points of equal areas in the unit disc.
-std::vector<V2f> spiral(int n) {
-  std::vector<V2f> points;
-  for (int i = 0; i < n; ++i) {
-    const float r = std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(n));
-    const SinCos turn = sinCosTurns(static_cast<float>(i) * goldenTurn);
-    points.emplace_back(r * turn.cos, r * turn.sin);
-  }
-  return points;
-}
-
-/// Turn of a pixel's taps, in [0, 1): an integer hash (Wellons' lowbias32) of its place and seed.
-float pixelTurn(int x, int y, int seed) {
-  uint32_t h = static_cast<uint32_t>(x) * 0x9e3779b1u + static_cast<uint32_t>(y) * 0x85ebca77u +
-               static_cast<uint32_t>(seed) * 0xc2b2ae3du;
-  h = (h ^ (h >> 16)) * 0x7feb352du;
-  h = (h ^ (h >> 15)) * 0x846ca68bu;
-  h ^= h >> 16;
-  return static_cast<float>(h >> 8) * 0x1p-24f;
-}
 
 class Pcf {
  public:
   Pcf(const ShadowMap& map, const PcfParams& params, const DepthPyramid* pyramid)
-      : map_(map), params_(params), pyramid_(pyramid), points_(spiral(params.samples)) {}
+      : map_(map), params_(params), pyramid_(pyramid), points_(spiralPoints(params.samples)) {}
 
   float at(int x, int y, const V3f& position, const V3f& normal) const {
     const std::optional<MapReceiver> r = receiveOnMap(map_, position, normal);
@@ -74,23 +51,9 @@ class Pcf {
   }
 
   float taps(const MapReceiver& r, float radius, float bias, SinCos turn) const {
-    const View<const float>& depth = map_.depth;
-    int lit = 0;
-    for (const V2f& p : points_) {
-      const float tu = std::floor(r.u + radius * (p.x * turn.cos - p.y * turn.sin));
-      const float tv = std::floor(r.v + radius * (p.x * turn.sin + p.y * turn.cos));
-      const bool inside = tu >= 0 && tv >= 0 && tu < static_cast<float>(depth.width) &&
-                          tv < static_cast<float>(depth.height);
-      if (!inside) {
-        ++lit;
-        continue;
-      }
-      const float plane = r.planeDepth(tu + 0.5f - r.u, tv + 0.5f - r.v, params_.slope_bias);
-      const float away = std::fabs(tu + 0.5f - r.u) + std::fabs(tv + 0.5f - r.v);
-      const float allowed = bias + away * params_.spread_bias / r.texelsPerUnit;
-      lit += !(depth(static_cast<int>(tu), static_cast<int>(tv)) < plane - allowed);
-    }
-    return static_cast<float>(lit) / static_cast<float>(points_.size());
+    const TapCount count = countTaps(map_.depth, r, points_, turn,
+                                     {radius, bias, params_.slope_bias, params_.spread_bias});
+    return static_cast<float>(count.lit) / static_cast<float>(points_.size());
   }
 
   const ShadowMap& map_;

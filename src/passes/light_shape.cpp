@@ -1,0 +1,201 @@
+#include "passes/light_shape.h"
+
+#include <cmath>
+
+#include "image/parallel.h"
+#include "passes/classes.h"
+#include "passes/light_share.h"
+#include "passes/mask_distance.h"
+#include "passes/require_size.h"
+#include "passes/shadow_follow.h"
+#include "passes/smooth.h"
+
+namespace kagefude {
+namespace {
+
+constexpr size_t mostMasks = 64;
+constexpr size_t mostFollowed = 16;
+constexpr auto penumbra = static_cast<uint8_t>(ShadowClass::penumbra);
+constexpr auto umbra = static_cast<uint8_t>(ShadowClass::umbra);
+
+void requireInputs(std::span<const View<const uint8_t>> masks, std::span<const V2f> places,
+                   View<const uint32_t> labels) {
+  if (masks.size() != places.size())
+    throw InputError(
+        fmt::format("{} shadow masks have {} places on the light", masks.size(), places.size()));
+  if (masks.size() < 2 || masks.size() > mostMasks)
+    throw InputError(fmt::format(
+        "a light's shape needs 2 to {} shadow masks, not {}; export it with --masks disc:9",
+        mostMasks, masks.size()));
+  if (!placesOnLine(places) && masks.size() != 5 && masks.size() != 9)
+    throw InputError(fmt::format(
+        "a disc light needs 5 or 9 shadow masks, its centre and a ring, not {}; export it with "
+        "--masks disc:9",
+        masks.size()));
+  for (const View<const uint8_t>& mask : masks)
+    requireSize("a shadow mask", mask, labels.width, labels.height);
+}
+
+bool hasStyle(const LightShapeParams& p) { return p.grow != 0 || p.soften > 0 || p.abstract > 0; }
+
+/// 1 where distances are wanted: where masks disagree, or with a style, wherever a surface is.
+Bytes wantedPixels(View<const uint8_t> classes, bool everywhere) {
+  Bytes wanted(classes.width, classes.height);
+  parallelRows(classes.height, [&](int y0, int y1) {
+    for (int y = y0; y < y1; ++y)
+      for (int x = 0; x < classes.width; ++x)
+        wanted(x, y) = everywhere ? classes(x, y) != 0 : classes(x, y) == penumbra;
+  });
+  return wanted;
+}
+
+/// Contours simplified: every distance becomes its mean over a window of the label.
+void simplify(std::vector<Distances>& distances, View<const uint32_t> labels, int reach) {
+  const SmoothParams window{reach};
+  Floats plane(labels.width, labels.height);
+  for (Distances& d : distances) {
+    const size_t pixels = labels.pixels();
+    for (size_t i = 0; i < pixels; ++i) plane.view().data[i] = d.view().data[i];
+    const Floats mean = smoothWithinSurfaces(plane, labels, window);
+    for (size_t i = 0; i < pixels; ++i)
+      d.view().data[i] = static_cast<int16_t>(std::floor(mean.view().data[i] + 0.5f));
+  }
+}
+
+/// A pixel's distances, with stand-ins where a mask has no edge in the label.
+class PixelDistances {
+ public:
+  PixelDistances(const std::vector<Distances>& planes, int x, int y, float grow)
+      : count_(planes.size()) {
+    float largest = 0;
+    for (size_t k = 0; k < count_; ++k) {
+      const int16_t d = planes[k](x, y);
+      known_[k] = d != farLit && d != farDark;
+      s_[k] = static_cast<float>(d) * distanceUnit;
+      if (known_[k]) largest = std::max(largest, std::fabs(s_[k]));
+    }
+    if (!(largest > 0)) largest = 1.0f;
+    for (size_t k = 0; k < count_; ++k) {
+      if (!known_[k]) s_[k] = s_[k] > 0 ? largest : -largest;
+      s_[k] -= grow;
+    }
+  }
+
+  const float* values() const { return s_; }
+
+  /// Share of masks with an edge, each less where the frame's edge is nearer than the shadow's.
+  float confidence(float toFrame) const {
+    float sum = 0;
+    for (size_t k = 0; k < count_; ++k)
+      if (known_[k]) sum += std::min(1.0f, toFrame / std::max(std::fabs(s_[k]), 0.5f));
+    return sum / static_cast<float>(count_);
+  }
+
+ private:
+  size_t count_;
+  bool known_[mostMasks];
+  float s_[mostMasks];
+};
+
+float toFrameEdge(int x, int y, int width, int height) {
+  return static_cast<float>(std::min({x, y, width - 1 - x, height - 1 - y})) + 0.5f;
+}
+
+/// The light over a receiver's own horizon: linear over the light, and known without distances.
+class Horizon {
+ public:
+  Horizon(const LightGeometry& geometry, std::span<const V2f> places, Vec3View position,
+          Vec3View normal)
+      : geometry_(geometry), places_(places), position_(position), normal_(normal) {}
+
+  /// Heights of the masks' places; false when anything else decides what the masks see.
+  bool explains(std::span<const View<const uint8_t>> masks, int x, int y, float* height) const {
+    const V3f n = normal_(x, y);
+    const V3f towards = geometry_.sun ? -geometry_.direction : geometry_.position - position_(x, y);
+    const float middle = n.dot(towards), sign = geometry_.sun ? -1.0f : 1.0f;
+    const float u = sign * n.dot(geometry_.u), v = sign * n.dot(geometry_.v);
+    for (size_t k = 0; k < masks.size(); ++k) {
+      height[k] = middle + u * places_[k].x + v * places_[k].y;
+      if ((height[k] > 0) != (masks[k](x, y) != 0)) return false;
+    }
+    return true;
+  }
+
+ private:
+  const LightGeometry& geometry_;
+  std::span<const V2f> places_;
+  Vec3View position_, normal_;
+};
+
+struct Inputs {
+  std::span<const View<const uint8_t>> masks;
+  View<const uint8_t> classes, wanted;
+  View<const uint32_t> labels;
+  const std::vector<Distances>& distances;
+  const LightShare& share;
+  const ShadowFollow* follow;
+  const Horizon* horizon;
+  float grow;
+};
+
+void resolvePixel(const Inputs& in, int x, int y, float& visibility, float& confidence) {
+  const uint8_t kind = in.classes(x, y);
+  visibility = kind == umbra ? 0.0f : 1.0f;
+  confidence = 1.0f;
+  if (in.labels(x, y) == 0) return;
+  float height[mostMasks];
+  if (in.horizon && kind == penumbra && in.horizon->explains(in.masks, x, y, height)) {
+    visibility = in.share.of(height);
+    return;
+  }
+  if (in.wanted(x, y)) {
+    const PixelDistances s(in.distances, x, y, in.grow);
+    visibility = in.share.of(s.values());
+    confidence = s.confidence(toFrameEdge(x, y, in.wanted.width, in.wanted.height));
+  }
+  if (!in.follow) return;
+  const ShadowFollow::Answer answer = in.follow->at(x, y);
+  visibility += answer.trust * (answer.visibility - visibility);
+}
+
+LightShapeResult resolve(const Inputs& in) {
+  LightShapeResult result{{in.labels.width, in.labels.height}, {in.labels.width, in.labels.height}};
+  parallelRows(in.labels.height, 4, [&](int y0, int y1) {
+    for (int y = y0; y < y1; ++y)
+      for (int x = 0; x < in.labels.width; ++x)
+        resolvePixel(in, x, y, result.visibility(x, y), result.confidence(x, y));
+  });
+  return result;
+}
+
+}  // namespace
+
+LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks,
+                                      std::span<const V2f> places, View<const uint32_t> labels,
+                                      Vec3View position, Vec3View normal,
+                                      const std::optional<LightGeometry>& geometry,
+                                      const LightShapeParams& params) {
+  requireInputs(masks, places, labels);
+  const bool style = hasStyle(params), linear = params.disc == DiscIntegral::linear;
+  const float radius = params.lightSize + params.soften;
+  const Bytes classes = classifyShadow(masks, labels);
+  const Bytes wanted = wantedPixels(classes, style);
+  const View<const uint32_t> bound =
+      params.bound == SearchBound::none ? View<const uint32_t>{} : labels;
+  std::vector<Distances> distances = maskDistances(masks, wanted, bound);
+  if (params.abstract > 0) simplify(distances, labels, params.abstract);
+  std::optional<ShadowFollow> follow;
+  std::optional<Horizon> horizon;
+  if (params.follow && geometry && !position.empty() && !normal.empty() && !style) {
+    requireSize("the position pass", position, labels.width, labels.height);
+    requireSize("the normal pass", normal, labels.width, labels.height);
+    horizon.emplace(*geometry, places, position, normal);
+    if (!linear && !placesOnLine(places) && masks.size() <= mostFollowed)
+      follow.emplace(masks, places, labels, position, normal, *geometry, radius);
+  }
+  const LightShare share(places, linear, radius);
+  return resolve({masks, classes, wanted, labels, distances, share, follow ? &*follow : nullptr,
+                  horizon ? &*horizon : nullptr, params.grow});
+}
+
+}  // namespace kagefude
