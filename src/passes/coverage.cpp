@@ -52,35 +52,35 @@ class CoverageShader : TileShader {
     BoxState state = filterIndices(list, fromApex(expected, wedges_.apex()),
                                    params_.selfShadow ? bias : undecided, indices_);
     FlatPixel flat;
-    if (state == BoxState::touching && sampler_.locate(x, y, flat)) state = judge(flat, list, bias);
+    if (state == BoxState::touching && sampler_.locate(x, y, bias, flat)) state = judge(flat, list);
     if (state != BoxState::touching) {
       result_(x, y) = state == BoxState::inside ? 1.0f : 0.0f;
       return;
     }
     sampler_.sample(points_);
     if (points_.present != 0 && expected.contains(points_.box(points_.present)))
-      result_(x, y) = shareOf(cut(list, points_.present, bias));
+      result_(x, y) = shareOf(cut(list, points_.present));
     else
-      result_(x, y) = gatherAndCut(bias);
+      result_(x, y) = gatherAndCut();
   }
 
   /// A pixel where P alone does not bound what is seen: the sub-pixels are found first.
   void edgePixel(const PixelBoxes& boxes, int x, int y) {
     const float bias = biasOf(surface_.pixelSize(x, y), boxes.reach(), params_);
     FlatPixel flat;
-    sampler_.locate(x, y, flat);
+    sampler_.locate(x, y, bias, flat);
     sampler_.sample(points_);
-    result_(x, y) = gatherAndCut(bias);
+    result_(x, y) = gatherAndCut();
   }
 
   /// Settles a flat pixel by its corners, and drops the wedges that it lies apart from.
-  BoxState judge(const FlatPixel& flat, const WedgeList& list, float bias) {
+  BoxState judge(const FlatPixel& flat, const WedgeList& list) {
     std::array<V3f, 4> corners = flat.corners;
     for (V3f& corner : corners) corner -= wedges_.apex();
     size_t kept = 0;
     for (int i : indices_) {
       if (!counts(list.id[i], flat.id)) continue;
-      const BoxState state = patchState(list.wedge(i), corners, bias);
+      const BoxState state = patchState(list.wedge(i), corners);
       if (state == BoxState::inside) return state;
       if (state == BoxState::touching) indices_[kept++] = i;
     }
@@ -90,7 +90,7 @@ class CoverageShader : TileShader {
 
   /// Cuts the sampled sub-pixels in up to two groups, before and behind a gap, so that each has a
   /// small box.
-  float gatherAndCut(float bias) {
+  float gatherAndCut() {
     const uint64_t before = points_.beforeGap();
     uint64_t shaded = 0;
     for (uint64_t group : {before, points_.present & ~before}) {
@@ -98,13 +98,13 @@ class CoverageShader : TileShader {
       wedges_.gather(points_.box(group), undecided, near_);
       indices_.resize(static_cast<size_t>(near_.count));
       std::iota(indices_.begin(), indices_.end(), 0);
-      shaded |= cut(near_, group, bias);
+      shaded |= cut(near_, group);
     }
     return shareOf(shaded);
   }
 
   /// The sub-pixels of the group inside any of the wedges that indices_ names.
-  uint64_t cut(const WedgeList& list, uint64_t group, float bias) const {
+  uint64_t cut(const WedgeList& list, uint64_t group) const {
     const V3f apex = wedges_.apex();
     alignas(64) float x[64], y[64], z[64];
     for (int k = 0; k < 64; ++k) {
@@ -114,7 +114,7 @@ class CoverageShader : TileShader {
     }
     uint64_t shaded = 0;
     for (int i : indices_) {
-      uint64_t mask = wedgeMask(list.wedge(i), x, y, z, bias) & group;
+      uint64_t mask = wedgeMask(list.wedge(i), x, y, z) & group;
       if (!params_.selfShadow && mask != 0) mask &= ~own(list.id[i]);
       shaded |= mask;
       if (shaded == group) break;

@@ -16,7 +16,6 @@ class MaskShader : TileShader {
 
   void tile(int x0, int y0) {
     const PixelBoxes boxes(surface_, x0, y0, true);
-    bias_ = biasOf(boxes.pixelSize(), boxes.reach(), params_);
     uint64_t shaded = 0;
     bool loaded = false;
     shade(
@@ -45,7 +44,7 @@ class MaskShader : TileShader {
     for (int k = 0; k < 64; ++k) {
       const int x = k % coverageTile, y = k / coverageTile;
       const bool present = x < boxes.width() && y < boxes.height() && boxes.smooth(x, y);
-      const V3f p = present ? surface_.relative(x0 + x, y0 + y) - wedges_.apex() : V3f(0.0f);
+      const V3f p = present ? lifted(x0 + x, y0 + y) - wedges_.apex() : V3f(0.0f);
       points_.x[k] = p.x;
       points_.y[k] = p.y;
       points_.z[k] = p.z;
@@ -53,10 +52,18 @@ class MaskShader : TileShader {
     }
   }
 
+  /// P, off its surface to the side that the camera sees.
+  V3f lifted(int x, int y) const {
+    const V3f p = surface_.relative(x, y), n = surface_.normal(x, y);
+    const V3f direction(surface_.rays.direction(x + 0.5, y + 0.5));
+    const float lift = biasOf(surface_.pixelSize(x, y), p.length(), params_);
+    return p + n * (n.dot(direction) > 0 ? -lift : lift);
+  }
+
   uint64_t cut(const WedgeList& list, uint64_t rect) const {
     uint64_t shaded = 0;
     for (int i = 0; i < list.count && (shaded & rect) != rect; ++i) {
-      uint64_t mask = wedgeMask(list.wedge(i), points_.x, points_.y, points_.z, bias_) & rect;
+      uint64_t mask = wedgeMask(list.wedge(i), points_.x, points_.y, points_.z) & rect;
       if (!params_.selfShadow)
         for (int k = 0; k < 64; ++k)
           if (!counts(list.id[i], points_.id[k])) mask &= ~(uint64_t{1} << k);
@@ -66,7 +73,6 @@ class MaskShader : TileShader {
   }
 
   View<uint8_t> result_;
-  float bias_ = 0;
   SubpixelPoints points_;
 };
 

@@ -32,7 +32,10 @@ class SurfaceSampler {
   void startTile(int x0, int y0, int x1, int y1);
   /// Looks at pixel (x, y), which must show a surface. True, with `flat` filled, when all of it is
   /// one plane.
-  bool locate(int x, int y, FlatPixel& flat);
+  ///
+  /// Points are lifted off their surface by `lift` world units, to the side that the camera sees:
+  /// what keeps a surface out of its own shadow on the lit side, and in it on the other.
+  bool locate(int x, int y, float lift, FlatPixel& flat);
   /// The sub-pixels of the pixel last located.
   void sample(SubpixelPoints& points);
 
@@ -53,7 +56,10 @@ class SurfaceSampler {
   void findHits(const Rays& rays, Hits& hits) const;
   Ray ray(double x, double y) const;
   V3f onPlane(int x, int y, const Ray& ray) const;
+  /// Lifted off the candidate's triangle.
+  V3f lifted(const V3f& point, int candidate) const;
   /// The nearest neighbour on sub-pixel k's side that is no caster: background or another surface.
+  /// False when all around are casters: the sub-pixel looks through a hole between them.
   bool beyondSilhouette(int k, int& column, int& row) const;
   bool seenAround(uint32_t id) const;
   /// Surface of a sub-pixel given what its ray met; false where it shows background.
@@ -68,6 +74,7 @@ class SurfaceSampler {
   std::vector<uint8_t> touching_;
 
   int x_ = 0, y_ = 0;
+  float lift_ = 0;
   V3f centre_{0, 0, 0}, stepX_{0, 0, 0}, stepY_{0, 0, 0};  ///< what wedge sides are evaluated at
   bool explained_ = false;
   int own_ = -1;                 ///< the candidate under the pixel's centre

@@ -12,7 +12,7 @@ inline constexpr int shortList = 48;
 /// Rounding of a point relative to its distance from the eye, with some to spare.
 inline constexpr float roundingBias = 4e-6f;
 
-/// How far behind a triangle a point must lie, in world units.
+/// How far points are lifted off their surface, in world units.
 inline float biasOf(float pixelSize, float reach, const CoverageParams& params) {
   return params.bias * pixelSize + roundingBias * reach;
 }

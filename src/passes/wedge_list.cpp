@@ -50,12 +50,12 @@ KAGEFUDE_CLONES void boxStates(const float* const* c, int count, const float* ce
 }
 
 KAGEFUDE_CLONES void insideBytes(const float* c, const float* x, const float* y, const float* z,
-                                 float bias, uint8_t* inside) {
+                                 uint8_t* inside) {
   for (int i = 0; i < 64; ++i) {
     const float s0 = c[0] * x[i] + c[1] * y[i] + c[2] * z[i] - c[3];
     const float s1 = c[4] * x[i] + c[5] * y[i] + c[6] * z[i] - c[7];
     const float s2 = c[8] * x[i] + c[9] * y[i] + c[10] * z[i] - c[11];
-    const float s3 = c[12] * x[i] + c[13] * y[i] + c[14] * z[i] - c[15] - bias;
+    const float s3 = c[12] * x[i] + c[13] * y[i] + c[14] * z[i] - c[15];
     inside[i] = (s0 >= 0.0f) & (s1 >= 0.0f) & (s2 >= 0.0f) & (s3 >= 0.0f);
   }
 }
@@ -154,13 +154,12 @@ BoxState filterWedges(const WedgeList& list, const PointBox& box, float bias, We
 }
 
 BoxState patchState(const std::array<float, wedgeCoefficients>& wedge,
-                    const std::array<V3f, 4>& corners, float bias) {
+                    const std::array<V3f, 4>& corners) {
   bool inside = true;
   for (int plane = 0; plane < 4; ++plane) {
     const float* c = wedge.data() + 4 * plane;
-    const float offset = plane == 3 ? c[3] + bias : c[3];
     int behind = 0;
-    for (const V3f& q : corners) behind += c[0] * q.x + c[1] * q.y + c[2] * q.z >= offset;
+    for (const V3f& q : corners) behind += c[0] * q.x + c[1] * q.y + c[2] * q.z >= c[3];
     if (behind == 0) return BoxState::apart;
     inside &= behind == 4;
   }
@@ -178,9 +177,9 @@ uint64_t bitsOf(const uint8_t* bytes) {
 }
 
 uint64_t wedgeMask(const std::array<float, wedgeCoefficients>& wedge, const float* x,
-                   const float* y, const float* z, float bias) {
+                   const float* y, const float* z) {
   uint8_t inside[64];
-  insideBytes(wedge.data(), x, y, z, bias, inside);
+  insideBytes(wedge.data(), x, y, z, inside);
   return bitsOf(inside);
 }
 

@@ -83,12 +83,11 @@ BoxState filterIndices(const WedgeList& list, const PointBox& box, float bias,
 
 /// How a flat patch with four corners (relative to the apex) lies to one wedge.
 BoxState patchState(const std::array<float, wedgeCoefficients>& wedge,
-                    const std::array<V3f, 4>& corners, float bias);
+                    const std::array<V3f, 4>& corners);
 
-/// One bit for each of 64 points: set where q lies in the wedge, more than bias behind its
-/// triangle. NaN is outside.
+/// One bit for each of 64 points: set where q lies in the wedge. NaN is outside.
 uint64_t wedgeMask(const std::array<float, wedgeCoefficients>& wedge, const float* x,
-                   const float* y, const float* z, float bias);
+                   const float* y, const float* z);
 
 /// Bit i is set where bytes[i] is not 0; bytes are 0 or 1.
 uint64_t bitsOf(const uint8_t* bytes);
