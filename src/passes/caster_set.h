@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "passes/caster_mesh.h"
+#include "passes/wedge_list.h"
 
 namespace kagefude {
-
-/// Triangles side by side in one block: what one vector instruction looks at.
-inline constexpr int wedgeLanes = 8;
 
 /// The casters' triangles in world space under a tree of boxes, built once per frame for all
 /// lights and for the camera. Leaves are blocks of up to wedgeLanes triangles.

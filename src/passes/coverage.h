@@ -24,7 +24,8 @@ inline constexpr std::array coverageParameters = {
     number<&CoverageParams::strength>("strength", 0, 1, "",
                                       "How much of the light a full shadow takes away."),
     number<&CoverageParams::bias>(
-        "bias", 0, 10, "pixels", "How far behind a triangle a point must lie to be in its shadow."),
+        "bias", 0, 10, "pixels",
+        "How far surfaces are lifted off themselves before they are tested."),
 };
 
 inline constexpr ParameterTable coverageTable = {
@@ -42,11 +43,11 @@ inline constexpr ParameterTable coverageTable = {
 /// those of single triangles, whose union is the component's volume whether it is convex, closed or
 /// neither; the displayed polygon comes from P, N and the casters (SurfaceSampler).
 ///
-/// A point is in a triangle's shadow when it lies more than `bias` pixels (plus 4e-6 of its
-/// distance, for rounding) behind its plane: a contact keeps that much of a gap, and a lit sheet
-/// does not shade itself. Camera inside a volume, casters behind it, open and concave meshes need
-/// no care: nothing is counted along the line of sight. A light on or inside a caster is hidden
-/// by it. No casters: all 0. Same bits for any number of threads.
+/// Points are lifted off their surface by `bias` pixels (plus 4e-6 of their distance, for
+/// rounding) to the side that the camera sees: a contact keeps that much of a gap, a lit sheet does
+/// not shade itself, and its far side lies in its shadow. Camera inside a volume, casters behind
+/// it, open and concave meshes need no care: nothing is counted along the line of sight. A light on
+/// or inside a caster is hidden by it. No casters: all 0. Same bits for any number of threads.
 ///
 /// Cost: tiles of 8x8 whose whole surface is lit, or inside one triangle's volume, cost one descent
 /// of the tree; only pixels with an edge, or under many small triangles, are cut at sub-pixels.

@@ -80,7 +80,12 @@ void PixelBoxes::measure(const SeenSurface& surface, int x, int y, bool centres,
   const V3f half = (across.reach + down.reach) * 0.55f + V3f(0.1f * pixel);
   extent.size = broken ? 2 * pixel : 2 * std::max({half.x, half.y, half.z});
   extent.kind = broken && !centres ? Kind::edge : Kind::smooth;
-  if (centres) return;
+  if (centres) {
+    // Room for lifting points off their surface.
+    extent.low -= V3f(0.1f * pixel);
+    extent.high += V3f(0.1f * pixel);
+    return;
+  }
   extent.low -= half;
   extent.high += half;
 }

@@ -15,7 +15,7 @@ inline constexpr int coverageTile = 8;
 class PixelBoxes {
  public:
   /// The tile has its corner at (x0, y0) and is cut at the picture's edge. With `centres` boxes
-  /// hold the centres only, and every surface pixel is smooth.
+  /// hold little more than the centres, and every surface pixel is smooth.
   PixelBoxes(const SeenSurface& surface, int x0, int y0, bool centres);
 
   /// Box of the smooth pixels in the rectangle, in pixels of the tile; false when there is none.

@@ -44,7 +44,7 @@ uint64_t coveredBy(const WedgeList& list, const CameraRays& rays, int x, int y) 
     std::array<float, wedgeCoefficients> wedge = list.wedge(i);
     // Only the sides matter: all of the flattened caster lies in the receiver's surface.
     std::fill(wedge.begin() + 12, wedge.end(), 0.0f);
-    covered |= wedgeMask(wedge, q[0], q[1], q[2], 0.0f);
+    covered |= wedgeMask(wedge, q[0], q[1], q[2]);
   }
   return covered;
 }

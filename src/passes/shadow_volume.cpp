@@ -196,13 +196,13 @@ class VolumeCounter {
     FlatPixel flat;
     SubpixelPoints points;
     sampler_.startTile(x, y, x + 1, y + 1);
-    sampler_.locate(x, y, flat);
+    sampler_.locate(x, y, static_cast<float>(lift), flat);
     sampler_.sample(points);
     int hidden = 0;
     for (uint64_t rest = points.present; rest != 0; rest &= rest - 1) {
       const int k = std::countr_zero(rest);
       const V3d point(points.x[k], points.y[k], points.z[k]);
-      hidden += shaded(met, x + (k % 8 + 0.5) / 8, y + (k / 8 + 0.5) / 8, point, lift);
+      hidden += shaded(met, x + (k % 8 + 0.5) / 8, y + (k / 8 + 0.5) / 8, point, 0);
     }
     const int seen = std::popcount(points.present);
     result_(x, y) = seen == 0 ? 0.0f : static_cast<float>(hidden) / static_cast<float>(seen);

@@ -40,8 +40,8 @@ inline constexpr ParameterTable volumeTable = {
 ///
 /// Needs the meshes and the set made of them. Own shadows are kept. Background is 0. Independent
 /// of shadowCoverage but for the surface at the sub-pixels, and slower: it is the check on it.
-/// Cost: about a microsecond per sub-pixel row and face edge in the picture. Throws InputError when
-/// planes differ in size.
+/// Cost: about five times shadowCoverage on meshes of 32 and 2,000 triangles, more on large ones.
+/// Throws InputError when planes differ in size.
 Floats shadowVolume(const SeenSurface& surface, std::span<const CasterMesh> meshes,
                     const CasterSet& casters, const LightPlace& light, const VolumeParams& params);
 

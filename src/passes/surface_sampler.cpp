@@ -1,9 +1,7 @@
 #include "passes/surface_sampler.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "image/clones.h"
 
@@ -13,6 +11,8 @@ namespace {
 constexpr float farAway = 3e38f;
 /// How far P may lie from its triangle: in widths of a pixel, and relative to its distance.
 constexpr float nearPixels = 0.05f, nearRelative = 2e-5f;
+/// How far beyond a triangle's edge P may lie, as a share of half a pixel.
+constexpr float edgeShare = 0.02f;
 
 float sideAt(const float* plane, const V3f& q) {
   return plane[0] * q.x + plane[1] * q.y + plane[2] * q.z - plane[3];
@@ -93,41 +93,6 @@ struct SurfaceSampler::Hits {
   alignas(64) int index[64];
 };
 
-PointBox SubpixelPoints::box(uint64_t group) const {
-  V3f low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
-  for (uint64_t rest = group; rest != 0; rest &= rest - 1) {
-    const int k = std::countr_zero(rest);
-    const V3f p(x[k], y[k], z[k]);
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-    }
-  }
-  return PointBox::around(low, high);
-}
-
-uint64_t SubpixelPoints::beforeGap() const {
-  std::array<std::pair<float, int>, 64> order;
-  size_t count = 0;
-  for (uint64_t rest = present; rest != 0; rest &= rest - 1) {
-    const int k = std::countr_zero(rest);
-    order[count++] = {V3f(x[k], y[k], z[k]).length2(), k};
-  }
-  if (count < 2) return present;
-  std::sort(order.begin(), order.begin() + count);
-  float widest = 0;
-  size_t behind = count;
-  for (size_t i = 1; i < count; ++i)
-    if (order[i].first - order[i - 1].first > widest) {
-      widest = order[i].first - order[i - 1].first;
-      behind = i;
-    }
-  if (3 * widest < order[count - 1].first - order[0].first) return present;
-  uint64_t before = 0;
-  for (size_t i = 0; i < behind; ++i) before |= uint64_t{1} << order[i].second;
-  return before;
-}
-
 void SurfaceSampler::startTile(int x0, int y0, int x1, int y1) {
   x0_ = x0;
   y0_ = y0;
@@ -167,12 +132,18 @@ void SurfaceSampler::findCandidates() {
 
 void SurfaceSampler::judgeCentre(int candidate, float tolerance) {
   const std::array<float, wedgeCoefficients> wedge = tile_.wedge(candidate);
-  for (int plane = 0; plane < 3; ++plane)
-    if (!(sideAt(wedge.data() + 4 * plane, centre_) >= 0)) return;
+  bool through = true, nearly = true;
+  for (int plane = 0; plane < 3; ++plane) {
+    const float* side = wedge.data() + 4 * plane;
+    const float value = sideAt(side, centre_);
+    through &= value >= 0;
+    // The renderer may have rounded the other way at a triangle's very edge.
+    nearly &= value >= -edgeShare * sideReach(side, stepX_, stepY_);
+  }
   const float behind = sideAt(wedge.data() + 12, surface_.relative(x_, y_));
-  if (std::fabs(behind) <= tolerance)
+  if (nearly && std::fabs(behind) <= tolerance)
     own_ = candidate;
-  else if (behind > 0)
+  else if (through && behind > 0)
     hidden_.push_back(tile_.id[candidate]);
 }
 
@@ -206,7 +177,7 @@ bool SurfaceSampler::onOneTriangle(const std::array<Ray, 4>& corners,
     const Ray& corner = corners[k];
     const float t = (wedge[15] - n.dot(corner.origin)) / n.dot(corner.direction);
     if (!(t > 0 && t < farAway)) return false;
-    found[k] = corner.origin + corner.direction * t;
+    found[k] = lifted(corner.origin + corner.direction * t, own_);
     farthest = std::max(farthest, t);
   }
   return std::all_of(candidates_.begin(), candidates_.end(), [&](int i) {
@@ -214,9 +185,10 @@ bool SurfaceSampler::onOneTriangle(const std::array<Ray, 4>& corners,
   });
 }
 
-bool SurfaceSampler::locate(int x, int y, FlatPixel& flat) {
+bool SurfaceSampler::locate(int x, int y, float lift, FlatPixel& flat) {
   x_ = x;
   y_ = y;
+  lift_ = lift;
   if (!gathered_) gatherTile();
   findCandidates();
   hidden_.clear();
@@ -251,13 +223,19 @@ void SurfaceSampler::findHits(const Rays& rays, Hits& hits) const {
   }
 }
 
+V3f SurfaceSampler::lifted(const V3f& point, int candidate) const {
+  const auto& c = tile_.coefficients;
+  return point - V3f(c[12][candidate], c[13][candidate], c[14][candidate]) * lift_;
+}
+
 V3f SurfaceSampler::onPlane(int x, int y, const Ray& ray) const {
   const V3f p = surface_.relative(x, y), n = surface_.normal(x, y);
   const float own = (p - ray.origin).dot(ray.direction) / ray.direction.length2();
-  float t = (p - ray.origin).dot(n) / ray.direction.dot(n);
+  const float t = (p - ray.origin).dot(n) / ray.direction.dot(n);
   // Seen edge-on, or without a normal, the plane says nothing: keep the distance of P.
-  if (!(std::fabs(t - own) <= 0.25f * std::fabs(own))) t = own;
-  return ray.origin + ray.direction * t;
+  if (!(std::fabs(t - own) <= 0.25f * std::fabs(own)))
+    return ray.origin + ray.direction * own - ray.direction.normalized() * lift_;
+  return ray.origin + ray.direction * t + n * (n.dot(ray.direction) > 0 ? -lift_ : lift_);
 }
 
 bool SurfaceSampler::beyondSilhouette(int k, int& column, int& row) const {
@@ -293,7 +271,7 @@ bool SurfaceSampler::settle(int k, const Ray& ray, uint32_t hitId, const V3f& hi
   id = hitId;
   if (explained_ && hitId != 0) return true;
   int column = x_, row = y_;
-  if (explained_ && beyondSilhouette(k, column, row) && !surface_.isSurface(column, row))
+  if (explained_ && (!beyondSilhouette(k, column, row) || !surface_.isSurface(column, row)))
     return false;
   const V3f plane = onPlane(column, row, ray);
   const bool before = (plane - hit).dot(ray.direction) > nearRelative * plane.length();
@@ -311,7 +289,8 @@ void SurfaceSampler::sample(SubpixelPoints& points) {
   for (int k = 0; k < 64; ++k) {
     const Ray ray = rays[k];
     const uint32_t hitId = hits.index[k] < 0 ? 0 : tile_.id[hits.index[k]];
-    const V3f hit = ray.origin + ray.direction * hits.t[k];
+    V3f hit = ray.origin + ray.direction * hits.t[k];
+    if (hitId != 0) hit = lifted(hit, hits.index[k]);
     V3f point;
     if (settle(k, ray, hitId, hit, point, points.id[k]))
       points.present |= uint64_t{1} << k;

@@ -6,24 +6,9 @@
 
 #include "passes/seen_surface.h"
 #include "passes/shadow_wedges.h"
+#include "passes/subpixel_points.h"
 
 namespace kagefude {
-
-/// The surface at the 8x8 sub-pixels of one pixel, row by row; sub-pixel (i, j) has its place at
-/// ((i + 0.5)/8, (j + 0.5)/8). Coordinates are relative to the camera's eye.
-struct SubpixelPoints {
-  alignas(64) float x[64];
-  alignas(64) float y[64];
-  alignas(64) float z[64];
-  uint32_t id[64];
-  uint64_t present = 0;  ///< sub-pixels that show a surface
-
-  /// Box round the points of a group that is not empty.
-  PointBox box(uint64_t group) const;
-  /// The present points before the widest gap in distance from the eye, when it is a third of
-  /// their range or more, as between two surfaces; else all present points.
-  uint64_t beforeGap() const;
-};
 
 /// A pixel that shows one flat surface: its four corners on it, in order, relative to the eye.
 struct FlatPixel {
@@ -47,7 +32,10 @@ class SurfaceSampler {
   void startTile(int x0, int y0, int x1, int y1);
   /// Looks at pixel (x, y), which must show a surface. True, with `flat` filled, when all of it is
   /// one plane.
-  bool locate(int x, int y, FlatPixel& flat);
+  ///
+  /// Points are lifted off their surface by `lift` world units, to the side that the camera sees:
+  /// what keeps a surface out of its own shadow on the lit side, and in it on the other.
+  bool locate(int x, int y, float lift, FlatPixel& flat);
   /// The sub-pixels of the pixel last located.
   void sample(SubpixelPoints& points);
 
@@ -68,7 +56,10 @@ class SurfaceSampler {
   void findHits(const Rays& rays, Hits& hits) const;
   Ray ray(double x, double y) const;
   V3f onPlane(int x, int y, const Ray& ray) const;
+  /// Lifted off the candidate's triangle.
+  V3f lifted(const V3f& point, int candidate) const;
   /// The nearest neighbour on sub-pixel k's side that is no caster: background or another surface.
+  /// False when all around are casters: the sub-pixel looks through a hole between them.
   bool beyondSilhouette(int k, int& column, int& row) const;
   bool seenAround(uint32_t id) const;
   /// Surface of a sub-pixel given what its ray met; false where it shows background.
@@ -83,6 +74,7 @@ class SurfaceSampler {
   std::vector<uint8_t> touching_;
 
   int x_ = 0, y_ = 0;
+  float lift_ = 0;
   V3f centre_{0, 0, 0}, stepX_{0, 0, 0}, stepY_{0, 0, 0};  ///< what wedge sides are evaluated at
   bool explained_ = false;
   int own_ = -1;                 ///< the candidate under the pixel's centre

@@ -135,7 +135,7 @@ TEST(Coverage, CastersBehindTheCameraAndCameraInsideTheVolume) {
                   quadMesh(2, {-4, -14, 8}, {4, -14, 8}, {4, -2, 8}, {-4, -2, 8})};
   scene.render();
   const LightPlace light = pointAt({0.3, -8, 16});
-  ASSERT_TRUE(scene.hidden(scene.eye, light, 1e-6));
+  ASSERT_TRUE(scene.hidden(scene.eye, light));
   const Comparison c =
       compare(scene, light, shadowCoverage(scene.seen(), scene.casters(), light, {}));
   EXPECT_GT(c.edges, 20);
@@ -176,8 +176,11 @@ TEST(Coverage, MaskAtCentresMatchesATrace) {
   int hidden = 0;
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
-      const bool dark =
-          scene.ids(x, y) != 0 && scene.hidden(V3d(scene.position.view()(x, y)), light, 1e-4);
+      const V3d lifted =
+          V3d(scene.position.view()(x, y)) +
+          V3d(scene.normal.view()(x, y)) *
+              (scene.normal.view()(x, y).dot(V3f(scene.rays.direction(x, y))) > 0 ? -1e-4 : 1e-4);
+      const bool dark = scene.ids(x, y) != 0 && scene.hidden(lifted, light);
       EXPECT_EQ(mask(x, y), dark ? 0 : 1) << x << ' ' << y;
       hidden += dark;
     }

@@ -56,15 +56,19 @@ struct TracedScene {
     return best;
   }
 
-  bool hidden(const V3d& p, const LightPlace& light, double gap) const {
+  bool hidden(const V3d& p, const LightPlace& light) const {
     const V3d d = light.directional ? -light.direction * 1e3 : light.position - p;
     bool found = false;
     eachTriangle([&](uint32_t, const V3d& a, const V3d& b, const V3d& c) {
       const auto t = meet(p, d, a, b, c);
-      const double behind = std::fabs((p - a).dot((b - a).cross(c - a).normalized()));
-      found |= t && *t > 0 && *t < 1 && behind > gap;
+      found |= t && *t > 0 && *t < 1;
     });
     return found;
+  }
+
+  /// The hit point lifted off its surface by `gap`, to the side that the ray comes from.
+  static V3d lifted(const V3d& o, const V3d& d, const Hit& hit, double gap) {
+    return o + d * hit.t + hit.normal * (hit.normal.dot(d) > 0 ? -gap : gap);
   }
 
   void render() {
@@ -117,7 +121,7 @@ struct TracedScene {
       const auto hit = nearest(o, d);
       if (!hit) continue;
       ++present;
-      shaded += hidden(o + d * hit->t, light, gap);
+      shaded += hidden(lifted(o, d, *hit, gap), light);
     }
     return present == 0 ? 0 : double(shaded) / present;
   }
