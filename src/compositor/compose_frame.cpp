@@ -57,6 +57,9 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
                          FramePlanes planes, StageSink* sink) {
   FrameResult result;
   result.warnings = plan.warnings;
+  if (planes.casting)
+    result.warnings.insert(result.warnings.end(), planes.casting->warnings.begin(),
+                           planes.casting->warnings.end());
   if (planes.badPixels)
     result.warnings.push_back(
         fmt::format("{} pixels hold NaN or Inf in Position or Normal and are taken as background",

@@ -26,6 +26,9 @@ const LightLook* settingsOf(const Look& look, const std::string& name) {
 
 void applySettings(const Look& look, const LightLook* settings, FrameLight& light) {
   const ShadowParams& shadow = settings ? settings->shadow : look.shadow;
+  light.castPlaces = shadow.places;
+  light.receiver = shadow.receiver;
+  if (!shadow.blob.empty()) light.blob = look.resolve(shadow.blob);
   light.method = shadow.method;
   light.strength = shadow.strength;
   light.passes = settings ? settings->passes : look.passes;
@@ -70,7 +73,27 @@ bool needsMasks(ShadowMethod method) {
          method == ShadowMethod::disc;
 }
 
-FrameLight fromSidecar(const Look& look, const SidecarLight& source) {
+V3f vectorFrom(const std::vector<float>& numbers, const V3f& otherwise) {
+  return numbers.empty() ? otherwise : V3f(numbers[0], numbers[1], numbers[2]);
+}
+
+/// Soft where the light has a size, else hard.
+ShadowMethod casterMethod(float radius) {
+  return radius > 0.0f ? ShadowMethod::places : ShadowMethod::coverage;
+}
+
+/// Lays the look's own place and size over a light; then masks and depth map no longer fit it.
+bool moveLight(const LightLook* settings, FrameLight& light) {
+  if (!settings) return false;
+  const LightParams& params = settings->light;
+  if (params.position.empty() && params.direction.empty() && params.radius == 0.0f) return false;
+  light.light.position = vectorFrom(params.position, light.light.position);
+  light.light.direction = vectorFrom(params.direction, light.light.direction).normalized();
+  if (params.radius > 0.0f) light.light.radius = params.radius;
+  return true;
+}
+
+FrameLight fromSidecar(const Look& look, const SidecarLight& source, bool hasCasters) {
   FrameLight light;
   light.name = source.name;
   light.light = {typeOf(source.type),
@@ -82,10 +105,16 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source) {
   light.subjectCentre = toFloat(source.subjectCenter);
   light.subjectRadius = static_cast<float>(source.subjectRadius);
   light.weight = weightOf(source);
-  applySettings(look, settingsOf(look, source.name), light);
+  const LightLook* const settings = settingsOf(look, source.name);
+  applySettings(look, settings, light);
+  if (moveLight(settings, light)) {
+    if (light.method == ShadowMethod::automatic) light.method = casterMethod(light.light.radius);
+    return light;
+  }
   if (light.method == ShadowMethod::automatic) {
     light.method = source.masks      ? arrangementMethod(source.masks->arrangement)
                    : source.depthMap ? ShadowMethod::pcf
+                   : hasCasters      ? casterMethod(light.light.radius)
                                      : ShadowMethod::none;
   }
   if (source.depthMap)
@@ -104,10 +133,6 @@ Transform matrixFrom(const std::vector<float>& numbers) {
   Transform result;
   for (size_t i = 0; i < numbers.size(); ++i) result.m[i / 4][i % 4] = numbers[i];
   return result;
-}
-
-V3f vectorFrom(const std::vector<float>& numbers, const V3f& otherwise) {
-  return numbers.empty() ? otherwise : V3f(numbers[0], numbers[1], numbers[2]);
 }
 
 /// Places of masks that the look names without saying where they stand on the light: two are a
@@ -134,13 +159,14 @@ std::vector<V2f> placesFrom(const LightParams& params) {
   return places;
 }
 
-ShadowMethod methodFor(const LightParams& params) {
+ShadowMethod methodFor(const LightParams& params, bool hasCasters) {
   if (params.masks.size() == 2) return ShadowMethod::pair;
   if (params.masks.size() > 2) return ShadowMethod::disc;
-  return params.depthMap.empty() ? ShadowMethod::none : ShadowMethod::pcf;
+  if (!params.depthMap.empty()) return ShadowMethod::pcf;
+  return hasCasters ? casterMethod(params.radius) : ShadowMethod::none;
 }
 
-FrameLight fromLook(const Look& look, const LightLook& settings, int frame) {
+FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool hasCasters) {
   const LightParams& params = settings.light;
   FrameLight light;
   light.name = params.name;
@@ -149,7 +175,7 @@ FrameLight fromLook(const Look& look, const LightLook& settings, int frame) {
   light.light.direction = vectorFrom(params.direction, {0, 0, -1}).normalized();
   light.light.radius = params.radius;
   applySettings(look, &settings, light);
-  if (light.method == ShadowMethod::automatic) light.method = methodFor(params);
+  if (light.method == ShadowMethod::automatic) light.method = methodFor(params, hasCasters);
   if (needsMasks(light.method)) {
     light.maskChannels = params.masks;
     light.places = placesFrom(params);
@@ -171,10 +197,12 @@ bool describesLight(const LightParams& params) {
   return !params.position.empty() || (!params.direction.empty() && params.type == LightKind::sun);
 }
 
-std::vector<FrameLight> allLights(const Look& look, const Sidecar* sidecar, int frame) {
+std::vector<FrameLight> allLights(const Look& look, const Sidecar* sidecar, int frame,
+                                  bool hasCasters) {
   std::vector<FrameLight> lights;
   if (sidecar)
-    for (const SidecarLight& light : sidecar->lights) lights.push_back(fromSidecar(look, light));
+    for (const SidecarLight& light : sidecar->lights)
+      lights.push_back(fromSidecar(look, light, hasCasters));
   for (const LightLook& settings : look.lights) {
     const std::string& name = settings.light.name;
     if (isGlob(name) || (sidecar && sidecar->findLight(name))) continue;
@@ -186,7 +214,7 @@ std::vector<FrameLight> allLights(const Look& look, const Sidecar* sidecar, int 
           "give the light's position (or a sun's direction) in the look",
           name, listNames(names), didYouMean(name, names)));
     }
-    lights.push_back(fromLook(look, settings, frame));
+    lights.push_back(fromLook(look, settings, frame, hasCasters));
   }
   return lights;
 }
@@ -195,7 +223,19 @@ std::string_view methodName(ShadowMethod method) {
   return shadowMethodNames[static_cast<size_t>(method)];
 }
 
-void checkMethod(const FrameLight& light) {
+void checkMethod(const FrameLight& light, bool hasCasters) {
+  if (needsCasters(light.method) && !hasCasters)
+    throw InputError(fmt::format(
+        "light {} takes its shadow from the casters (shadow.method = \"{}\"), but the frame brings "
+        "none; export it with --casters",
+        light.name, methodName(light.method)));
+  const bool onReceiver =
+      light.method == ShadowMethod::planar || light.method == ShadowMethod::blob;
+  if (onReceiver && light.receiver.empty())
+    throw LookError(
+        fmt::format("shadow.method = \"{}\" wants shadow.receiver, the name of the flat "
+                    "object that the shadow falls on",
+                    methodName(light.method)));
   if (needsDepthMap(light.method) && !light.depthMap)
     throw InputError(fmt::format(
         "light {} has no depth map, which shadow.method = \"{}\" needs; export it again with the "
@@ -220,18 +260,24 @@ void checkMethod(const FrameLight& light) {
 
 }  // namespace
 
+bool needsCasters(ShadowMethod method) {
+  return method == ShadowMethod::coverage || method == ShadowMethod::volume ||
+         method == ShadowMethod::places || method == ShadowMethod::planar;
+}
+
 bool needsDepthMap(ShadowMethod method) {
   return method == ShadowMethod::pcf || method == ShadowMethod::pcss;
 }
 
 std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
-                                     const ImageFile& image, int frame) {
+                                     const ImageFile& image, int frame, bool hasCasters) {
   std::vector<FrameLight> chosen;
   std::vector<std::string> names;
-  for (FrameLight& light : allLights(look, sidecar, frame)) {
+  for (FrameLight& light : allLights(look, sidecar, frame, hasCasters)) {
     names.push_back(light.name);
-    if (!matchesAny(light.name, look.shadow.lights)) continue;
-    checkMethod(light);
+    const LightLook* const settings = settingsOf(look, light.name);
+    if (!matchesAny(light.name, look.shadow.lights) || (settings && !settings->light.on)) continue;
+    checkMethod(light, hasCasters);
     for (std::string& mask : light.maskChannels) mask = requireMaskChannel(image, mask);
     chosen.push_back(std::move(light));
   }

@@ -35,15 +35,21 @@ struct FrameLight {
   std::vector<V2f> places;                ///< of the same masks on the light, in radii
   std::optional<LightGeometry> geometry;  ///< what moves the light from mask to mask
   std::optional<DepthMapSource> depthMap;
+  int castPlaces = 0;          ///< method places: masks that are cut from the casters
+  std::string receiver;        ///< methods planar and blob
+  std::filesystem::path blob;  ///< picture of the blob; empty: a soft round one
 };
 
 /// Whether a method reads the light's depth map.
 bool needsDepthMap(ShadowMethod method);
+/// Whether a method needs the shape of what casts the shadow.
+bool needsCasters(ShadowMethod method);
 
 /// The lights that take part in a frame, in the sidecar's order, then those that only the look
-/// describes. Throws InputError when a light lacks what its method needs, naming what to export;
-/// LookError when [shadow] lights or a [[light]] match nothing.
+/// describes. `hasCasters` says whether the frame brings casters. Throws InputError when a light
+/// lacks what its method needs, naming what to export; LookError when [shadow] lights or a
+/// [[light]] match nothing.
 std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
-                                     const ImageFile& image, int frame);
+                                     const ImageFile& image, int frame, bool hasCasters);
 
 }  // namespace kagefude

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/glob.h"
+#include "frame/casters.h"
 #include "frame/cryptomatte.h"
 
 namespace kagefude {
@@ -134,7 +135,9 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   nameObjectsFromSidecar(plan);
   planCoverage(look, names, plan);
   if (wantsOutlines(look) && !plan.sidecar) plan.depth = findAov(plan.image, names, AovKind::depth);
-  plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame);
+  plan.hasCasters = plan.sidecar && !readCasterEntries(plan.sidecar->path).empty();
+  plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame,
+                             plan.hasCasters);
   return plan;
 }
 

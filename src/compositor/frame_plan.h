@@ -29,6 +29,7 @@ struct FramePlan {
   std::optional<Aov> materialId;  ///< only when a style asks for materials
   std::map<uint32_t, std::string> objectNames;
   std::map<uint32_t, std::string> materialNames;
+  bool hasCasters = false;  ///< whether the sidecar names the shapes that cast shadows
   std::vector<std::string> warnings;
 
   /// Name of an object id for messages and styles; "" when nothing names it.

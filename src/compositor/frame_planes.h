@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "compositor/casting_scene.h"
 #include "image/vec.h"
 
 namespace kagefude {
@@ -25,11 +27,12 @@ struct FramePlanes {
   Vec3Plane albedo;
   Vec3Plane beauty;
   Floats alpha;
-  Floats depth;                        ///< only for outlines where no camera is known
-  std::vector<Labels> coverageIds;     ///< Cryptomatte of objects by rank, for clean edges
-  std::vector<Floats> coverageShares;  ///< how much of the pixel each covers
-  std::vector<LightPlanes> lights;     ///< in the order of the plan's lights
-  size_t badPixels = 0;                ///< pixels whose NaN or Inf made them background
+  Floats depth;                                 ///< only for outlines where no camera is known
+  std::vector<Labels> coverageIds;              ///< Cryptomatte of objects by rank, for clean edges
+  std::vector<Floats> coverageShares;           ///< how much of the pixel each covers
+  std::vector<LightPlanes> lights;              ///< in the order of the plan's lights
+  std::shared_ptr<const CastingScene> casting;  ///< null when no light needs it
+  size_t badPixels = 0;                         ///< pixels whose NaN or Inf made them background
 };
 
 }  // namespace kagefude

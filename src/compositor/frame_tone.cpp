@@ -21,6 +21,12 @@ void weaken(View<float> visibility, float strength) {
   });
 }
 
+Floats complement(View<const float> visibility) {
+  Floats hidden(visibility.width, visibility.height);
+  for (size_t i = 0; i < visibility.pixels(); ++i) hidden.row(0)[i] = 1.0f - visibility.data[i];
+  return hidden;
+}
+
 std::vector<float> normalisedWeights(const std::vector<FrameLight>& lights) {
   float sum = 0;
   for (const FrameLight& light : lights) sum += light.weight;
@@ -37,7 +43,7 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
   std::vector<Floats> tones;
   for (size_t i = 0; i < plan.lights.size(); ++i) {
     const FrameLight& light = plan.lights[i];
-    LightVisibility shadow = lightVisibility(light, planes.lights[i], planes, surfaces, sink);
+    LightVisibility shadow = lightVisibility(light, plan, planes.lights[i], planes, surfaces, sink);
     Floats visibility = std::move(shadow.visibility);
     Floats tone =
         lambertShade(planes.normal, planes.position, surfaces, light.light, light.passes.shade);
@@ -45,6 +51,9 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
     weaken(visibility, light.strength);
     mergeTone(visibility, tone, light.passes.merge, tone);
     tones.push_back(std::move(tone));
+    const bool geometric = light.method == ShadowMethod::coverage;
+    if (geometric && matchesAny(fmt::format("coverage.{}", light.name), look.output.layers))
+      result.layers.push_back({fmt::format("coverage.{}", light.name), complement(visibility)});
     const std::string name = fmt::format("visibility.{}", light.name);
     if (matchesAny(name, look.output.layers))
       result.layers.push_back({name, std::move(visibility)});

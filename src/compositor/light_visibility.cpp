@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "compositor/caster_visibility.h"
 #include "passes/classes.h"
 #include "passes/light_shape.h"
 #include "passes/pair_search.h"
@@ -50,7 +51,18 @@ Floats fromDepth(const FrameLight& light, const LightPlanes& planes, const Frame
                         light.passes.pcss);
 }
 
-LightVisibility measured(const FrameLight& light, const LightPlanes& planes,
+/// The light's disc from masks that are cut from the casters instead of rendered.
+LightVisibility fromPlaces(const FrameLight& light, const FramePlanes& frame,
+                           View<const uint32_t> surfaces) {
+  const LightShapeParams& params = light.passes.lightShape;
+  const CastMasks cast = castMasks(light, frame);
+  LightShapeResult shape =
+      lightShapeVisibility(viewsOf(cast.masks), cast.places, boundBy(params.bound, frame, surfaces),
+                           frame.position, frame.normal, cast.geometry, params);
+  return {std::move(shape.visibility), std::move(shape.confidence)};
+}
+
+LightVisibility measured(const FrameLight& light, const FramePlan& plan, const LightPlanes& planes,
                          const FramePlanes& frame, View<const uint32_t> surfaces) {
   const auto sure = [&] { return Floats(frame.width, frame.height, 1.0f); };
   switch (light.method) {
@@ -68,6 +80,13 @@ LightVisibility measured(const FrameLight& light, const LightPlanes& planes,
       const Floats raw = fromDepth(light, planes, frame, surfaces);
       return {smoothWithinSurfaces(raw, surfaces, light.passes.smooth), sure()};
     }
+    case ShadowMethod::places:
+      return fromPlaces(light, frame, surfaces);
+    case ShadowMethod::coverage:
+    case ShadowMethod::volume:
+    case ShadowMethod::planar:
+    case ShadowMethod::blob:
+      return {casterVisibility(light, plan, frame), sure()};
     default:
       return {sure(), sure()};
   }
@@ -75,11 +94,11 @@ LightVisibility measured(const FrameLight& light, const LightPlanes& planes,
 
 }  // namespace
 
-LightVisibility lightVisibility(const FrameLight& light, const LightPlanes& planes,
-                                const FramePlanes& frame, View<const uint32_t> surfaces,
-                                StageSink* sink) {
+LightVisibility lightVisibility(const FrameLight& light, const FramePlan& plan,
+                                const LightPlanes& planes, const FramePlanes& frame,
+                                View<const uint32_t> surfaces, StageSink* sink) {
   if (sink) showMasks(light, planes, surfaces, *sink);
-  LightVisibility result = measured(light, planes, frame, surfaces);
+  LightVisibility result = measured(light, plan, planes, frame, surfaces);
   if (sink) sink->number(fmt::format("visibility.{}", light.name), result.visibility);
   return result;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compositor/frame_light.h"
+#include "compositor/frame_plan.h"
 #include "compositor/frame_planes.h"
 #include "compositor/stage_sink.h"
 
@@ -14,8 +14,8 @@ struct LightVisibility {
 /// One light's visibility by the method chosen for it. What pair, pcf and pcss give is smoothed
 /// within surfaces (002 section 4.2.2); disc and line are smooth of themselves, and a window would
 /// only blur their contacts. `sink` may be null.
-LightVisibility lightVisibility(const FrameLight& light, const LightPlanes& planes,
-                                const FramePlanes& frame, View<const uint32_t> surfaces,
-                                StageSink* sink);
+LightVisibility lightVisibility(const FrameLight& light, const FramePlan& plan,
+                                const LightPlanes& planes, const FramePlanes& frame,
+                                View<const uint32_t> surfaces, StageSink* sink);
 
 }  // namespace kagefude

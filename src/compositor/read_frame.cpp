@@ -1,5 +1,8 @@
 #include "compositor/read_frame.h"
 
+#include <algorithm>
+
+#include "compositor/caster_visibility.h"
 #include "frame/cryptomatte.h"
 #include "frame/read_channels.h"
 #include "frame/sanitise.h"
@@ -93,13 +96,17 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
       own.masks.push_back(toMask(mask));
       mask = Floats();
     }
-    if (needsDepthMap(plan.lights[i].method))
-      own.depthMap = readDepthMap(*plan.lights[i].depthMap);
+    if (needsDepthMap(plan.lights[i].method)) own.depthMap = readDepthMap(*plan.lights[i].depthMap);
   }
   planes.objectId = idsFrom(objects, plan.idSource);
   if (plan.materialId) planes.materialId = idsFrom(materials, plan.materialSource);
   planes.coverageIds = std::move(coverage.ids);
   planes.coverageShares = std::move(coverage.coverage);
+  const auto wantsScene = [](const FrameLight& light) {
+    return needsCasters(light.method) || light.method == ShadowMethod::blob;
+  };
+  if (std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene))
+    planes.casting = std::make_shared<const CastingScene>(readCastingScene(plan));
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
   return planes;

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "passes/brush_params.h"
+#include "passes/coverage.h"
 #include "passes/lambert.h"
 #include "passes/light_shape.h"
 #include "passes/merge.h"
@@ -10,8 +11,11 @@
 #include "passes/pair_search.h"
 #include "passes/pcf.h"
 #include "passes/pcss.h"
+#include "passes/planar_projection.h"
+#include "passes/shadow_volume.h"
 #include "passes/smooth.h"
 #include "passes/surfaces.h"
+#include "passes/texture_shadow.h"
 #include "passes/tone.h"
 
 namespace kagefude {
@@ -24,6 +28,10 @@ struct PassParams {
   LightShapeParams lightShape;
   PcfParams pcf;
   PcssParams pcss;
+  CoverageParams coverage;
+  VolumeParams volume;
+  PlanarParams planar;
+  BlobParams blob;
   SmoothParams smooth;
   LambertParams shade;
   MergeParams merge;

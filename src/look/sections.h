@@ -10,24 +10,49 @@
 // The look's sections that are not a pass's own parameters. Each is declared once, here.
 namespace kagefude {
 
-enum class ShadowMethod { automatic, none, pair, line, disc, pcf, pcss };
-inline constexpr std::string_view shadowMethodNames[] = {"auto", "none", "pair", "line",
-                                                         "disc", "pcf",  "pcss"};
+enum class ShadowMethod {
+  automatic,
+  none,
+  pair,
+  line,
+  disc,
+  pcf,
+  pcss,
+  coverage,
+  volume,
+  places,
+  planar,
+  blob
+};
+inline constexpr std::string_view shadowMethodNames[] = {"auto",   "none",   "pair",   "line",
+                                                         "disc",   "pcf",    "pcss",   "coverage",
+                                                         "volume", "places", "planar", "blob"};
 
 /// [shadow]: how each light's visibility is found.
 struct ShadowParams {
   ShadowMethod method = ShadowMethod::automatic;
   std::vector<std::string> lights = {"*"};
   float strength = 1.0f;
+  int places = 9;
+  std::string receiver;
+  std::string blob;
 };
 inline constexpr Parameter shadowParameters[] = {
     choice<&ShadowParams::method>(
         "method", shadowMethodNames,
-        "where the visibility comes from; auto takes the masks' own arrangement, then the depth "
-        "map, then none"),
+        "where the visibility comes from: masks (pair, line, disc), the depth map (pcf, pcss), the "
+        "casters (coverage, volume: hard; places: soft; planar: on one receiver), or painted "
+        "blobs; "
+        "auto takes the masks' own arrangement, then the depth map, then the casters, then none"),
     plain<&ShadowParams::lights>("lights", "names or globs of the lights that take part"),
     number<&ShadowParams::strength>("strength", 0, 1, "",
                                     "share of the light that a full shadow takes away"),
+    number<&ShadowParams::places>("places", 5, 65, "",
+                                  "places on the light's disc that method places cuts masks from"),
+    plain<&ShadowParams::receiver>("receiver",
+                                   "object that planar shadows and blobs fall on; flat"),
+    plain<&ShadowParams::blob>(
+        "blob", "picture of the blob, relative to the look; empty: a soft round one"),
 };
 inline constexpr ParameterTable shadowTable{"shadow", "chooses lights and the shadow method",
                                             "004, light sum: k", shadowParameters};
@@ -120,7 +145,7 @@ inline constexpr Parameter styleParameters[] = {
     plain<&StyleParams::light>("light",
                                "light that strokes run round; empty: the one that weighs most"),
     numbers<&StyleParams::outlineColour>("outline_colour", 3, 0, 100, "scene-linear",
-                                   "colour r, g, b of the outlines; empty: no outlines"),
+                                         "colour r, g, b of the outlines; empty: no outlines"),
 };
 inline constexpr ParameterTable styleTable{"style", "paints objects or materials with a strip",
                                            "002 fig. 5.5", styleParameters};
@@ -136,6 +161,7 @@ struct LightParams {
   std::vector<float> position;
   std::vector<float> direction;
   float radius = 0.0f;
+  bool on = true;
   std::vector<std::string> masks;
   std::vector<float> places;
   std::string depthMap;
@@ -145,7 +171,11 @@ struct LightParams {
 inline constexpr Parameter lightParameters[] = {
     plain<&LightParams::name>("name", "name or glob of the light"),
     choice<&LightParams::type>("type", lightKindNames, "kind of a light that no sidecar describes"),
-    numbers<&LightParams::position>("position", 3, -1e12, 1e12, "world units", "where it stands"),
+    numbers<&LightParams::position>(
+        "position", 3, -1e12, 1e12, "world units",
+        "where it stands; moves a light of the sidecar, which then takes its shadow from "
+        "the casters"),
+    plain<&LightParams::on>("on", "false switches the light off"),
     numbers<&LightParams::direction>("direction", 3, -1e12, 1e12, "",
                                      "which way its light travels (sun, spot, area)"),
     number<&LightParams::radius>("radius", 0, 1e12, "world units", "radius of its disc"),

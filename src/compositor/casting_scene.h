@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "passes/camera_rays.h"
+#include "passes/caster_set.h"
+
+namespace kagefude {
+
+/// What a frame's light would meet: the casters in world space, the tree over them, and the rays of
+/// the camera that sees the result.
+struct CastingScene {
+  std::vector<CasterMesh> meshes;  ///< ids as in the frame's object ids
+  CasterSet set;
+  CameraRays rays;
+  std::vector<std::string> warnings;
+};
+
+}  // namespace kagefude
