@@ -42,7 +42,4 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
 /// Reads the planned pixels. NaN and Inf make a pixel background and are counted.
 FramePlanes readFramePlanes(const FramePlan& plan);
 
-/// Bytes that a frame of this plan holds at once while it is composited, inputs and results.
-size_t frameMemory(const FramePlan& plan);
-
 }  // namespace kagefude
