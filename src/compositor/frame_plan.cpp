@@ -141,15 +141,4 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   return plan;
 }
 
-size_t frameMemory(const FramePlan& plan) {
-  constexpr size_t beyondInputs = 60;
-  size_t bytes = 4 * (3 + 3 + 2 + 2) + beyondInputs;
-  if (plan.albedo) bytes += 12;
-  if (plan.beauty) bytes += 16;
-  if (plan.materialId) bytes += 16;
-  if (plan.coverage) bytes += 32;
-  for (const FrameLight& light : plan.lights) bytes += 4 * light.maskChannels.size() + 4;
-  return bytes * static_cast<size_t>(plan.image.width) * static_cast<size_t>(plan.image.height);
-}
-
 }  // namespace kagefude

@@ -44,7 +44,5 @@ struct FramePlan {
 /// what is missing; nothing of the size of the picture is allocated.
 FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame);
 
-/// Bytes that a frame of this plan holds at once while it is composited, inputs and results.
-size_t frameMemory(const FramePlan& plan);
 
 }  // namespace kagefude

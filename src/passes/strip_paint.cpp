@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "image/parallel.h"
 #include "image/real_math.h"
 #include "passes/stroke_noise.h"
 
@@ -61,12 +62,21 @@ struct Stroke {
   uint32_t seed = 0;
 };
 
+Floats turned(View<const float> plane) {
+  Floats result(plane.height, plane.width);
+  parallelRows(plane.width, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < plane.height; ++x) result(x, y) = plane(y, x);
+  });
+  return result;
+}
+
 class Painter {
  public:
   explicit Painter(const StripPaintParams& params)
       : params_(params),
-        picture_{Floats(params.width, params.height), Floats(params.width, params.height),
-                 Floats(params.width, params.height)} {
+        columns_{Floats(params.height, params.width), Floats(params.height, params.width),
+                 Floats(params.height, params.width)} {
     for (int y = 0; y < params.height; ++y) {
       const Colour c = colourAt(
           params, 1.0f - (static_cast<float>(y) + 0.5f) / static_cast<float>(params.height));
@@ -74,18 +84,30 @@ class Painter {
     }
   }
 
-  void paintRows() {
+  void paint() {
+    const std::vector<Stroke> strokes = allStrokes();
+    // Strokes lie over each other in their order; columns know nothing of each other.
+    parallelRows(params_.width, [&](int first, int end) {
+      for (const Stroke& stroke : strokes) paint(stroke, first, end);
+    });
+  }
+
+  PaintedStrip picture() const {
+    return {turned(columns_.r), turned(columns_.g), turned(columns_.b)};
+  }
+
+ private:
+  std::vector<Stroke> allStrokes() const {
+    std::vector<Stroke> strokes;
     const float height = static_cast<float>(params_.height);
     const float step = params_.spacing * params_.strokeWidth;
     const int rows = static_cast<int>(std::ceil(height / step)) + 2;
     for (int row = -1; row <= rows; ++row)
-      paintRow(row, height - (static_cast<float>(row) + 0.5f) * step, step);
+      addRow(row, height - (static_cast<float>(row) + 0.5f) * step, step, strokes);
+    return strokes;
   }
 
-  PaintedStrip take() { return std::move(picture_); }
-
- private:
-  void paintRow(int row, float y, float step) {
+  void addRow(int row, float y, float step, std::vector<Stroke>& strokes) const {
     StrokeNoise noise(static_cast<uint32_t>(params_.seed), static_cast<uint32_t>(row + 1));
     const float width = static_cast<float>(params_.width);
     // Twice round, so that the gaps of one turn are covered by the other.
@@ -101,20 +123,25 @@ class Painter {
       const float place = 1.0f - stroke.y / static_cast<float>(params_.height);
       stroke.colour = colourAt(params_, place + (noise.next() - 0.5f) * 2.0f * params_.jitter);
       stroke.seed = noise.nextBits();
-      paint(stroke);
+      strokes.push_back(stroke);
       x += stroke.length * (0.7f + 0.2f * noise.next());
     }
   }
 
-  void paint(const Stroke& stroke) {
-    const int first = static_cast<int>(std::floor(stroke.start));
-    const int last = static_cast<int>(std::ceil(stroke.start + stroke.length));
-    for (int column = first; column <= last; ++column)
-      paintColumn(stroke, column, static_cast<float>(column) + 0.5f - stroke.start);
+  // What of a stroke lies in the strip's columns [first, end), on every turn round.
+  void paint(const Stroke& stroke, int first, int end) {
+    const int from = static_cast<int>(std::floor(stroke.start));
+    const int to = static_cast<int>(std::ceil(stroke.start + stroke.length));
+    const int width = params_.width;
+    const int turn = (from >= 0 ? from : from - width + 1) / width;
+    for (int start = turn * width; start <= to; start += width)
+      for (int column = std::max(from, start + first); column <= std::min(to, start + end - 1);
+           ++column)
+        paintColumn(stroke, column - start, static_cast<float>(column) + 0.5f - stroke.start);
   }
 
   // One column of a stroke, `along` pixels from its start.
-  void paintColumn(const Stroke& stroke, int column, float along) {
+  void paintColumn(const Stroke& stroke, int x, float along) {
     const float rest = stroke.length - along;
     if (along <= 0.0f || rest <= 0.0f) return;
     const float full = 0.5f * params_.strokeWidth;
@@ -131,13 +158,16 @@ class Painter {
                     stray * params_.wobble * params_.strokeWidth;
     const float cover =
         params_.opacity * stroke.strength * (0.5f + 0.5f * pen) * (0.35f + 0.65f * lift);
-    const int x = ((column % params_.width) + params_.width) % params_.width;
     const int top = std::max(0, static_cast<int>(std::floor(y - radius)));
     const int bottom = std::min(params_.height - 1, static_cast<int>(std::ceil(y + radius)));
+    const float hair = 0.045f * params_.strokeWidth + 0.6f;
+    StrokeNoiseColumn streaks(stroke.seed ^ 0x51ed270bu, along / (14.0f * hair));
+    // Streaks along the stroke are deeper where the brush runs dry.
+    const float depth = params_.bristle * (0.5f + 0.5f * (1.0f - lift));
     for (int row = top; row <= bottom; ++row) {
       const float across = (static_cast<float>(row) + 0.5f - y);
-      const float alpha = cover * edge(std::fabs(across), radius) *
-                          bristles(stroke.seed, along, across, 1.0f - lift);
+      const float alpha =
+          cover * edge(std::fabs(across), radius) * (1.0f - depth * streaks.at(across / hair));
       if (alpha > 0.0f) blend(x, row, stroke.colour, alpha);
     }
   }
@@ -148,22 +178,15 @@ class Painter {
     return smoothStep((radius - distance) / soft + 0.5f / soft);
   }
 
-  // Streaks along the stroke, deeper where the brush runs dry.
-  float bristles(uint32_t seed, float along, float across, float dry) const {
-    const float hair = 0.045f * params_.strokeWidth + 0.6f;
-    const float streak = strokeNoise(seed ^ 0x51ed270bu, along / (14.0f * hair), across / hair);
-    return 1.0f - params_.bristle * (0.5f + 0.5f * dry) * streak;
-  }
-
   void blend(int x, int y, const Colour& c, float alpha) {
-    float &r = picture_.r(x, y), &g = picture_.g(x, y), &b = picture_.b(x, y);
+    float &r = columns_.r(y, x), &g = columns_.g(y, x), &b = columns_.b(y, x);
     r = alpha >= 1.0f ? c.r : r + (c.r - r) * alpha;
     g = alpha >= 1.0f ? c.g : g + (c.g - g) * alpha;
     b = alpha >= 1.0f ? c.b : b + (c.b - b) * alpha;
   }
 
   const StripPaintParams& params_;
-  PaintedStrip picture_;
+  PaintedStrip columns_;  ///< a column of the strip is a row of these, as strokes are painted
 };
 
 }  // namespace
@@ -171,8 +194,8 @@ class Painter {
 PaintedStrip paintStrip(const StripPaintParams& params) {
   checkStops(params.stops);
   Painter painter(params);
-  painter.paintRows();
-  return painter.take();
+  painter.paint();
+  return painter.picture();
 }
 
 StripPaintParams stripPreset(std::string_view name) {

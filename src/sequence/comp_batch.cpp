@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/temp_file.h"
 #include "compositor/compose_frame.h"
+#include "compositor/frame_memory.h"
 #include "compositor/read_frame.h"
 #include "compositor/write_frame.h"
 #include "frame/png_file.h"
@@ -151,7 +152,8 @@ BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame)
   stages.compute = [this](size_t i, Read input) { return compose(i, std::move(input)); };
   stages.write = [this](size_t i, Composed output) { write(i, std::move(output)); };
   stages.memory = [this](size_t i) {
-    return frameMemory(planFrame(look_, jobs_[i].inputs.front(), jobs_[i].frame));
+    return frameMemory(look_, planFrame(look_, jobs_[i].inputs.front(), jobs_[i].frame),
+                       jobs_[i].outputs.size() > 1);
   };
   stages.isDone = [this](size_t i) { return isDone(i); };
   BatchOptions options;

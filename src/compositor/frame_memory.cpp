@@ -1,0 +1,70 @@
+#include "compositor/frame_memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/glob.h"
+
+namespace kagefude {
+namespace {
+
+// Bytes a pixel. The passes' own planes at their widest moment; what the allocator keeps of one
+// stage while the next begins, and packed chunks under way.
+constexpr size_t ofPasses = 40;
+constexpr size_t ofChange = 32;
+constexpr size_t ofPreview = 24;  // three float planes, samples and their packed bytes
+constexpr size_t ofResult = 16;
+constexpr size_t asHalf = 8;
+constexpr size_t ofIds = 4;
+constexpr size_t ofReadingIds = 16;  // two ranks of a Cryptomatte
+
+size_t layerBytes(const Look& look, const FramePlan& plan) {
+  std::vector<std::string> names = {"brush.tone", "brush.angle", "brush.repeat", "surface.id"};
+  for (const FrameLight& light : plan.lights)
+    names.push_back(fmt::format("visibility.{}", light.name));
+  const auto asked = std::count_if(names.begin(), names.end(), [&](const std::string& name) {
+    return matchesAny(name, look.output.layers);
+  });
+  return 4 * static_cast<size_t>(asked);
+}
+
+size_t passedThrough(const Look& look, const FramePlan& plan) {
+  if (!look.output.passthrough) return 0;
+  size_t bytes = 0;
+  for (const Channel& channel : plan.image.channels)
+    bytes += channel.type == PixelType::half ? 2 : 4;
+  return bytes;
+}
+
+size_t depthMapBytes(const FramePlan& plan) {
+  size_t bytes = 0;
+  for (const FrameLight& light : plan.lights) {
+    if (light.method != ShadowMethod::pcf) continue;
+    const ImageFile map = openImage(light.depthMap->file);
+    bytes += 4 * static_cast<size_t>(map.width) * static_cast<size_t>(map.height);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
+  size_t masks = 0;
+  for (const FrameLight& light : plan.lights) masks += light.maskChannels.size();
+  size_t floats = 4 * (3 + 3);
+  if (plan.albedo) floats += 4 * 3;
+  if (plan.beauty) floats += 4 * 4;
+  const size_t ids = plan.materialId ? 2 * ofIds : ofIds;
+  const size_t layers = layerBytes(look, plan);
+
+  const size_t reading = floats + 4 * masks + ids + ofReadingIds;
+  const size_t composing = floats + masks + ids + ofPasses + ofResult + layers;
+  const size_t writing =
+      ofResult + asHalf + layers + passedThrough(look, plan) + (preview ? ofPreview : 0);
+  const size_t pixels =
+      static_cast<size_t>(plan.image.width) * static_cast<size_t>(plan.image.height);
+  return (std::max({reading, composing, writing}) + ofChange) * pixels + depthMapBytes(plan);
+}
+
+}  // namespace kagefude
