@@ -44,7 +44,8 @@ struct Floor {
       Bytes& mask = masks.emplace_back(w, h);
       for (int y = 0; y < h; ++y)
         for (int x = 0; x < w; ++x)
-          mask(x, y) = lit(static_cast<float>(x) + shift * p.x, static_cast<float>(y) + shift * p.y);
+          mask(x, y) =
+              lit(static_cast<float>(x) + shift * p.x, static_cast<float>(y) + shift * p.y);
     }
   }
 
@@ -77,8 +78,7 @@ TEST(LightShape, StripThinnerThanTheMasksSpacingIsFollowed) {
   const LightShapeResult followed = floor.resolve(), plain = floor.resolve(without);
   double followedError = 0, plainError = 0;
   for (int x = 40; x < 88; ++x) {
-    const double truth =
-        1 - circleShare((x - 61.5) / 16) + circleShare((x - 65.5) / 16);
+    const double truth = 1 - circleShare((x - 61.5) / 16) + circleShare((x - 65.5) / 16);
     followedError += std::pow(followed.visibility(x, 48) - truth, 2);
     plainError += std::pow(plain.visibility(x, 48) - truth, 2);
   }
