@@ -43,6 +43,7 @@ int runProgram(int argc, const char* const* argv, Console& console) {
   addSheetCommand(app, console, exit);
   addPassesCommand(app, console, exit);
   addStripCommand(app, console, exit);
+  addCompareCommand(app, console, exit);
   try {
     app.parse(argc, argv);
     return exit;

@@ -8,11 +8,12 @@
 namespace kagefude {
 namespace {
 
-constexpr int coarsePlaces = 32, finePlaces = 72;
+constexpr float mismatchWeight = 0.1f;
+constexpr int coarsePlaces = 40, finePlaces = 72;
 constexpr float goldenTurn = 0.38196601125f;
 constexpr int alike = 6;             ///< steps of 1/127 that packed normals may differ by
 constexpr float trusted = 0.02f;     ///< mean disagreement up to which a match is trusted fully
-constexpr float distrusted = 0.06f;  ///< and from which on not at all
+constexpr float distrusted = 0.07f;  ///< and from which on not at all
 constexpr float grazing = 0.12f;     ///< cosine to the light up to which nothing is followed
 constexpr float facingWell = 0.3f;   ///< and from which on shifts are trusted fully
 constexpr float softness = 0.005f;   ///< disagreement that halves a tile's say, about
@@ -48,6 +49,7 @@ ShadowFollow::ShadowFollow(std::span<const View<const uint8_t>> masks, std::span
       normal_(normal),
       geometry_(geometry),
       maskCount_(masks.size()),
+      masks_(places.begin(), places.end()),
       tile_(labels.height > 1200 ? 8 : 4),
       tilesX_((labels.width + tile_ - 1) / tile_),
       tilesY_((labels.height + tile_ - 1) / tile_),
@@ -171,6 +173,25 @@ ShadowFollow::Mean ShadowFollow::meanAt(const std::vector<Place>& places, int x,
   return {visibility / count, cost / count, true};
 }
 
+float ShadowFollow::mismatchAt(int x, int y, const Basis& b, float shift) const {
+  const uint64_t here = pixels_(x, y);
+  float wrong = 0, count = 0;
+  const auto check = [&](const V2f& move, size_t from, size_t to) {
+    const int qx = static_cast<int>(
+        std::floor(static_cast<float>(x) + 0.5f - shift * (b.ux * move.x + b.vx * move.y)));
+    const int qy = static_cast<int>(
+        std::floor(static_cast<float>(y) + 0.5f - shift * (b.uy * move.x + b.vy * move.y)));
+    if (!labels_.contains(qx, qy) || labelOf(pixels_(qx, qy)) != labelOf(here)) return;
+    count += 1;
+    wrong += static_cast<float>((pixels_(qx, qy) >> from & 1) != (here >> to & 1));
+  };
+  for (size_t k = 1; k < maskCount_; ++k) {
+    check(masks_[k], 0, k);
+    check(-masks_[k], k, 0);
+  }
+  return count > 0 ? wrong / count : 1.0f;
+}
+
 void ShadowFollow::measure() {
   tiles_.resize(static_cast<size_t>(tilesX_) * static_cast<size_t>(tilesY_));
   parallelRows(tilesY_, 2, [&](int t0, int t1) {
@@ -199,7 +220,8 @@ void ShadowFollow::measureTile(int tx, int ty) {
       sums->count += 1;
       for (int i = 0; i < shifts_; ++i) {
         const Mean mean = meanAt(coarse_, x, y, b, length_[i]);
-        sums->cost[i] += mean.valid ? mean.cost : 0.25f;
+        sums->cost[i] +=
+            (mean.valid ? mean.cost : 0.25f) + mismatchWeight * mismatchAt(x, y, b, length_[i]);
       }
     }
 }

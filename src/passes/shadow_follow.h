@@ -76,10 +76,15 @@ class ShadowFollow {
   };
   Mean meanAt(const std::vector<Place>& places, int x, int y, const Basis& b, float shift) const;
 
+  /// Share of masks that, moved by the shift, do not foretell what another sees here. Without it a
+  /// shift that carries every tap past the shadow would agree with itself.
+  float mismatchAt(int x, int y, const Basis& b, float shift) const;
+
   View<const uint32_t> labels_;
   Vec3View position_, normal_;
   LightGeometry geometry_;
   size_t maskCount_;
+  std::vector<V2f> masks_;  ///< their places
   int tile_, tilesX_, tilesY_;
   int shifts_ = 0;
   float length_[mostShifts];

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <ostream>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "cli/commands.h"
+#include "frame/read_channels.h"
+#include "frame/write_image.h"
+#include "passes/compare_planes.h"
+
+namespace kagefude {
+namespace {
+
+struct CompareOptions {
+  std::string file, truthFile, channel, truthChannel, where, picture;
+  int truthSamples = 0;
+  float gain = 2.0f;
+  bool json = false;
+};
+
+/// The channel of that name, or the only channel of the layer of that name.
+std::string findChannel(const ImageFile& image, const std::filesystem::path& path,
+                        const std::string& name) {
+  if (image.findChannel(name)) return name;
+  std::vector<std::string> inLayer;
+  const std::vector<std::string> all = image.channelNames();
+  for (const std::string& channel : all)
+    if (channel.rfind(name + ".", 0) == 0) inLayer.push_back(channel);
+  if (inLayer.size() == 1) return inLayer.front();
+  throw InputError(fmt::format("{} has no channel {} (channels: {}){}", path.string(), name,
+                               listNames(inLayer.empty() ? all : inLayer), didYouMean(name, all)));
+}
+
+Floats readPlane(const std::string& path, const std::string& channel) {
+  const ImageFile image = openImage(path);
+  return std::move(readFloats(image, std::vector{findChannel(image, path, channel)}).at(0));
+}
+
+nlohmann::ordered_json toJson(const PlaneDifference& d) {
+  return {{"pixels", d.pixels},
+          {"rmse", d.rmse},
+          {"maximum", d.maximum},
+          {"penumbra",
+           {{"pixels", d.penumbraPixels},
+            {"rmse", d.penumbraRmse},
+            {"bias", d.penumbraBias},
+            {"median", d.median},
+            {"p90", d.p90},
+            {"p99", d.p99},
+            {"truth_noise", d.truthNoise}}}};
+}
+
+void print(std::ostream& out, const PlaneDifference& d, int truthSamples) {
+  out << fmt::format("all {} pixels: RMSE {:.4f}, maximum {:.4f}\n", d.pixels, d.rmse, d.maximum);
+  if (d.penumbraPixels == 0) {
+    out << "no penumbra (truth between 0.02 and 0.98)\n";
+    return;
+  }
+  out << fmt::format(
+      "penumbra {} pixels: RMSE {:.4f}, bias {:+.4f}; absolute error: median {:.4f}, 90 % {:.4f}, "
+      "99 % {:.4f}\n",
+      d.penumbraPixels, d.penumbraRmse, d.penumbraBias, d.median, d.p90, d.p99);
+  if (truthSamples > 0)
+    out << fmt::format("noise of the truth itself, {} samples: up to {:.4f}\n", truthSamples,
+                       d.truthNoise);
+}
+
+void compare(const CompareOptions& options, Console& console) {
+  const Floats value = readPlane(options.file, options.channel);
+  const Floats truth = readPlane(
+      options.truthFile, options.truthChannel.empty() ? options.channel : options.truthChannel);
+  const Floats where =
+      options.where.empty() ? Floats() : readPlane(options.truthFile, options.where);
+  const View<const float> chosen = where.empty() ? View<const float>{} : where.view();
+  const PlaneDifference difference = comparePlanes(value, truth, chosen, options.truthSamples);
+  if (!options.picture.empty()) {
+    const Floats picture = differencePicture(value, truth, chosen, options.gain);
+    writePng(options.picture, picture, picture, picture, {}, 8);
+  }
+  if (options.json)
+    console.out << toJson(difference).dump(2) << "\n";
+  else
+    print(console.out, difference, options.truthSamples);
+}
+
+}  // namespace
+
+void addCompareCommand(CLI::App& app, Console& console, int&) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App* command =
+      app.add_subcommand("compare", "Measure how far one channel is from another, its truth");
+  command->add_option("file", options->file, "frame to judge (EXR)")->required();
+  command->add_option("truth", options->truthFile, "frame that holds the truth (EXR)")->required();
+  command->add_option("--channel", options->channel, "channel or layer, such as visibility.Key")
+      ->required();
+  command->add_option("--against", options->truthChannel,
+                      "channel or layer of the truth, such as truth.Key.V (the same name)");
+  command->add_option("--where", options->where,
+                      "channel beside the truth; only pixels where it is not 0 count");
+  command
+      ->add_option("--truth-samples", options->truthSamples,
+                   "samples a pixel of the truth, to report its own noise")
+      ->check(CLI::Range(0, 1 << 20));
+  command->add_option("--picture", options->picture, "PNG of the difference; grey is equal");
+  command->add_option("--gain", options->gain, "contrast of the picture (2)")
+      ->check(CLI::Range(0.01f, 1000.0f));
+  command->add_flag("--json", options->json, "as JSON");
+  command->callback([options, &console] { compare(*options, console); });
+}
+
+}  // namespace kagefude
