@@ -18,11 +18,15 @@ constexpr size_t ofResult = 16;
 constexpr size_t asHalf = 8;
 constexpr size_t ofIds = 4;
 constexpr size_t ofReadingIds = 16;  // two ranks of a Cryptomatte
+constexpr size_t ofEdgeRanks = 32;   // four ranks of a Cryptomatte
+constexpr size_t ofMaskSearch = 8;   // a mask's signed distance, and what its search needs
 
 size_t layerBytes(const Look& look, const FramePlan& plan) {
-  std::vector<std::string> names = {"brush.tone", "brush.angle", "brush.repeat", "surface.id"};
+  std::vector<std::string> names = {"brush.tone", "brush.angle", "brush.repeat", "outline",
+                                    "surface.id"};
   for (const FrameLight& light : plan.lights)
-    names.push_back(fmt::format("visibility.{}", light.name));
+    for (const char* kind : {"visibility", "confidence", "coverage"})
+      names.push_back(fmt::format("{}.{}", kind, light.name));
   const auto asked = std::count_if(names.begin(), names.end(), [&](const std::string& name) {
     return matchesAny(name, look.output.layers);
   });
@@ -40,7 +44,7 @@ size_t passedThrough(const Look& look, const FramePlan& plan) {
 size_t depthMapBytes(const FramePlan& plan) {
   size_t bytes = 0;
   for (const FrameLight& light : plan.lights) {
-    if (light.method != ShadowMethod::pcf) continue;
+    if (!needsDepthMap(light.method)) continue;
     const ImageFile map = openImage(light.depthMap->file);
     bytes += 4 * static_cast<size_t>(map.width) * static_cast<size_t>(map.height);
   }
@@ -50,16 +54,24 @@ size_t depthMapBytes(const FramePlan& plan) {
 }  // namespace
 
 size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
-  size_t masks = 0;
-  for (const FrameLight& light : plan.lights) masks += light.maskChannels.size();
+  size_t masks = 0, mostMasks = 0;
+  for (const FrameLight& light : plan.lights) {
+    const size_t own = light.method == ShadowMethod::places ? static_cast<size_t>(light.castPlaces)
+                                                            : light.maskChannels.size();
+    masks += light.maskChannels.size();
+    mostMasks = std::max(mostMasks, own);
+  }
   size_t floats = 4 * (3 + 3);
   if (plan.albedo) floats += 4 * 3;
   if (plan.beauty) floats += 4 * 4;
   const size_t ids = plan.materialId ? 2 * ofIds : ofIds;
   const size_t layers = layerBytes(look, plan);
+  const size_t edges = plan.coverage ? ofEdgeRanks : 0;
+  const size_t tones = 4 * plan.lights.size();
 
-  const size_t reading = floats + 4 * masks + ids + ofReadingIds;
-  const size_t composing = floats + masks + ids + ofPasses + ofResult + layers;
+  const size_t reading = floats + 4 * masks + ids + ofReadingIds + edges;
+  const size_t composing = floats + masks + ids + ofPasses + ofResult + layers + edges + tones +
+                           ofMaskSearch * mostMasks;
   const size_t writing =
       ofResult + asHalf + layers + passedThrough(look, plan) + (preview ? ofPreview : 0);
   const size_t pixels =
