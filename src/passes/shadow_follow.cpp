@@ -37,6 +37,9 @@ bool alikeNormals(uint64_t a, uint64_t b) {
   return std::abs(u) <= alike && std::abs(v) <= alike;
 }
 
+/// Floor of a pixel coordinate not far outside the frame; std::floor is a call on plain x86-64.
+int floorOf(float v) { return static_cast<int>(v + 4096.0f) - 4096; }
+
 uint32_t labelOf(uint64_t pixel) { return static_cast<uint32_t>(pixel >> 32); }
 
 }  // namespace
@@ -155,8 +158,8 @@ ShadowFollow::Mean ShadowFollow::meanAt(const std::vector<Place>& places, int x,
     float lit = 0, weight = 0;
     for (int i = 0; i < 3; ++i) {
       const V2f& o = place.offset[i];
-      const int qx = static_cast<int>(std::floor(fx + ux * o.x + vx * o.y));
-      const int qy = static_cast<int>(std::floor(fy + uy * o.x + vy * o.y));
+      const int qx = floorOf(fx + ux * o.x + vx * o.y);
+      const int qy = floorOf(fy + uy * o.x + vy * o.y);
       if (!labels_.contains(qx, qy)) continue;
       const uint64_t pixel = pixels_(qx, qy);
       if (labelOf(pixel) != labelOf(here) || !alikeNormals(pixel, here)) continue;
