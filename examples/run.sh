@@ -31,7 +31,7 @@ for shot in "${shots[@]}"; do
     blender -b --factory-startup --python-exit-code 3 -P "examples/$shot.py" -- \
       "$folder/$shot.blend" >"$folder/blender.log"
     blender -b "$folder/$shot.blend" --python-exit-code 3 -P blender_export/export_aovs.py -- \
-      --output "$folder/aovs/$shot.####.exr" --frames "$(frames_of "$shot")" --masks pair \
+      --output "$folder/aovs/$shot.####.exr" --frames "$(frames_of "$shot")" --masks disc:9 \
       2>&1 | tee -a "$folder/blender.log" | sed -n -u '/^Progress:\|^Error/p'
     touch "$folder/rendered"
   fi
