@@ -1,0 +1,66 @@
+"""Prints the ratios of a benchmark run and whether each keeps its gate; exit 1 when one does not.
+
+    python3 tests/bench/gates.py BENCH.json
+"""
+
+import json
+import os
+import sys
+
+# What is compared, our benchmark, the peer's, and the gate: the least factor by which we are
+# faster, or the most times the peer's time that we may take.
+FASTER = [
+    ("pair search, 1024x1024", "pairExact/1024/real_time", "naive search",
+     "pairNaive/iterations:1", 20),
+]
+AT_MOST = [
+    ("nine masks, distances and integral, 4K", "lightShapeNineMasks/0/real_time",
+     "OpenCV distance transform", "openCvDistanceTransform/real_time", 10),
+    ("nine masks with thin shadows followed, 4K", "lightShapeNineMasks/1/real_time",
+     "OpenCV distance transform", "openCvDistanceTransform/real_time", None),
+    ("brush, 21 styles, 4K", "brushHeld/real_time", "OpenCV phase and remap",
+     "openCvPhaseRemap/real_time", 1.5),
+    ("coverage, 20,000 triangles, 2K", "coverage/20000/process_time/real_time",
+     "Embree, 64 rays a pixel", "embree64/20000/process_time/real_time", 2),
+]
+
+
+def row(name, peer, ratio, gate, kept):
+    verdict = "" if gate is None else ("kept" if kept else "MISSED")
+    limit = "" if gate is None else f"{gate:g}x"
+    print(f"| {name} | {peer} | {ratio:.2f}x | {limit} | {verdict} |")
+
+
+def main(path):
+    with open(path, encoding="utf-8") as file:
+        run = json.load(file)
+    context = run["context"]
+    times = {b["name"]: b["real_time"] for b in run["benchmarks"] if "real_time" in b}
+    print(f"{context['date'][:10]}, {context['num_cpus']} cores at {context['mhz_per_cpu']} MHz, "
+          f"load {os.getloadavg()[0]:.1f}\n")
+    print("| part | peer | ratio | gate | |\n|---|---|---|---|---|")
+    missed = 0
+    for table, faster in ((FASTER, True), (AT_MOST, False)):
+        for name, ours, peer, theirs, gate in table:
+            if ours not in times or theirs not in times:
+                continue
+            ratio = times[theirs] / times[ours] if faster else times[ours] / times[theirs]
+            kept = gate is None or (ratio >= gate if faster else ratio <= gate)
+            missed += not kept
+            row(name, peer + (" (times faster)" if faster else " (times its time)"), ratio, gate, kept)
+    for bench in run["benchmarks"]:
+        for counter, label, gate in (("ratio_oiio", "EXR zip read, 20 channels", 3.5),
+                                     ("ratio_core", "EXR zip read, against openexr:core", 2)):
+            if counter in bench:
+                missed += bench[counter] < gate
+                row(label, "OIIO (times faster)", bench[counter], gate, bench[counter] >= gate)
+        if bench["name"].startswith("exrWrite/4"):
+            for counter, gate in (("fast_ratio", 5), ("small_ratio", 2.5)):
+                missed += bench[counter] < gate
+                row(f"EXR zip write, RGBA, {counter[:-6]}", "OIIO (times faster)", bench[counter],
+                    gate, bench[counter] >= gate)
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))
