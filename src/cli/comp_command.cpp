@@ -123,6 +123,9 @@ class RunReport {
 
 int comp(const CompOptions& options, Console& console) {
   Interrupts interrupts([](int code) { std::_Exit(code); });
+  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                            static_cast<size_t>(threads));
   const Look look = readLook(options.look, options.overrides);
   CompBatch batch(look, requestFrom(options, interrupts.token()));
   const auto progress = makeProgress(parseProgressKind(options.progress), console.err,
@@ -130,9 +133,6 @@ int comp(const CompOptions& options, Console& console) {
 
   RunReport report(options, look);
 
-  const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
-  tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                            static_cast<size_t>(threads));
   tbb::task_arena arena(threads);
   BatchResult result;
   arena.execute([&] {

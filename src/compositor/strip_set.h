@@ -22,8 +22,6 @@ class StripSet {
   const std::vector<Strip>& strips() const { return strips_; }
 
  private:
-  void load(const Look& look, const Colour& colour, const std::string& name);
-
   std::vector<Strip> strips_;
   std::map<std::string, int> indices_;
 };
