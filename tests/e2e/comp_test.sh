@@ -49,6 +49,27 @@ for expected in 'pixel data origin: x=-7, y=5' 'full/display size: 300 x 200' 's
   grep -qF -- "$expected" <<<"$info" && pass || fail "not carried over: $expected"
 done
 
+# Time code, rate, view and every channel's own type and bits pass through.
+oiiotool "$work/moved.0001.exr" -d float -d data.IndexMA.V=uint32 -d mask.Key.0.V=half \
+  --attrib:type=timecode smpte:TimeCode "01:02:03:04" --attrib:type=rational FramesPerSecond "24000/1001" \
+  --attrib view left --attrib:type=float mine/number 2.5 -o "$work/typed.0001.exr"
+sed 's/shot.0001.exr/typed.0001.exr/' "$data/shot.0001.json" >"$work/typed.0001.json"
+"$kagefude" comp "$work/look.toml" "$work/typed.0001.exr" -o "$work/typed_out.exr" --progress none --set output.passthrough=true
+before=$(iinfo -v "$work/typed.0001.exr")
+after=$(iinfo -v "$work/typed_out.exr")
+for expected in smpte:TimeCode FramesPerSecond view mine/number 'pixel data origin'; do
+  line=$(grep -F -- "$expected" <<<"$before") || fail "the input has no $expected"
+  grep -qxF -- "$line" <<<"$after" && pass || fail "not carried over: $line"
+done
+for expected in 'data.IndexMA.V (uint)' 'mask.Key.0.V (half)' 'data.Position.X (float)'; do
+  grep -qF -- "$expected" <<<"$after" && pass || fail "another type than $expected"
+done
+for channel in data.IndexMA.V mask.Key.0.V data.Position.X data.Normal.Z; do
+  for side in typed.0001 typed_out; do oiiotool "$work/$side.exr" --ch $channel -o "$work/$side.$channel.exr"; done
+  idiff -q -fail 0 -warn 0 "$work/typed.0001.$channel.exr" "$work/typed_out.$channel.exr" >/dev/null && pass ||
+    fail "$channel is changed"
+done
+
 # expect_error CODE TEXT ARGUMENTS...: exit code, one sentence, nothing written.
 expect_error() {
   local code=$1 text=$2 got=0 message
