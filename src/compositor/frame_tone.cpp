@@ -57,7 +57,7 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
     const std::string name = fmt::format("visibility.{}", light.name);
     if (matchesAny(name, look.output.layers))
       result.layers.push_back({name, std::move(visibility)});
-    const std::string confidence = fmt::format("shadowConfidence.{}", light.name);
+    const std::string confidence = fmt::format("confidence.{}", light.name);
     if (matchesAny(confidence, look.output.layers))
       result.layers.push_back({confidence, std::move(shadow.confidence)});
   }

@@ -60,7 +60,6 @@ inline constexpr ParameterTable shadowTable{"shadow", "chooses lights and the sh
 /// [colour]: spaces of the strips, of the result and of the previews.
 struct ColourParams {
   std::string config;
-  std::string working;
   std::string strip;
   std::string display;
   std::string view;
@@ -68,8 +67,6 @@ struct ColourParams {
 inline constexpr Parameter colourParameters[] = {
     plain<&ColourParams::config>(
         "config", "OCIO config, relative to the look; empty: $OCIO, then the built-in one"),
-    plain<&ColourParams::working>("working",
-                                  "space of frames and results; empty: the config's scene_linear"),
     plain<&ColourParams::strip>("strip", "space that strips are painted in; empty: sRGB"),
     plain<&ColourParams::display>("display", "display of previews; empty: the config's default"),
     plain<&ColourParams::view>("view", "view of previews; empty: the display's default"),
@@ -96,9 +93,8 @@ struct OutputParams {
 };
 inline constexpr Parameter outputParameters[] = {
     plain<&OutputParams::layers>("layers",
-                                 "layers beside R,G,B,A, names or globs: visibility.<light>, "
-                                 "shadowConfidence.<light>, brush.tone, "
-                                 "brush.angle, brush.repeat, surface.id"),
+                                 "layers beside R,G,B,A, names or globs: visibility.<light>, confidence.<light>, "
+        "coverage.<light>, brush.tone, brush.angle, brush.repeat, outline, surface.id"),
     plain<&OutputParams::passthrough>("passthrough",
                                       "also writes every other input channel unchanged"),
     choice<&OutputParams::background>("background", backgroundNames,
