@@ -1,6 +1,7 @@
 #include "compositor/frame_memory.h"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -33,12 +34,19 @@ size_t layerBytes(const Look& look, const FramePlan& plan) {
   return 4 * static_cast<size_t>(asked);
 }
 
-size_t passedThrough(const Look& look, const FramePlan& plan) {
-  if (!look.output.passthrough) return 0;
+size_t inputBytes(const FramePlan& plan) {
   size_t bytes = 0;
   for (const Channel& channel : plan.image.channels)
     bytes += channel.type == PixelType::half ? 2 : 4;
   return bytes;
+}
+
+/// Chunks of EXR rows that threads unpack or pack at the same time: raw, split, predicted and
+/// packed, and those that wait for their turn to be written.
+size_t chunkBytes(const FramePlan& plan, size_t bytesPerPixel) {
+  constexpr size_t rows = 16, copies = 6;
+  const auto threads = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
+  return rows * copies * threads * bytesPerPixel * static_cast<size_t>(plan.image.width);
 }
 
 size_t depthMapBytes(const FramePlan& plan) {
@@ -68,15 +76,17 @@ size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
   const size_t layers = layerBytes(look, plan);
   const size_t edges = plan.coverage ? ofEdgeRanks : 0;
   const size_t tones = 4 * plan.lights.size();
+  const size_t input = inputBytes(plan);
+  const size_t passed = look.output.passthrough ? input : 0;
 
   const size_t reading = floats + 4 * masks + ids + ofReadingIds + edges;
   const size_t composing = floats + masks + ids + ofPasses + ofResult + layers + edges + tones +
                            ofMaskSearch * mostMasks;
-  const size_t writing =
-      ofResult + asHalf + layers + passedThrough(look, plan) + (preview ? ofPreview : 0);
+  const size_t writing = ofResult + asHalf + layers + passed + (preview ? ofPreview : 0);
   const size_t pixels =
       static_cast<size_t>(plan.image.width) * static_cast<size_t>(plan.image.height);
-  return (std::max({reading, composing, writing}) + ofChange) * pixels + depthMapBytes(plan);
+  return (std::max({reading, composing, writing}) + ofChange) * pixels + depthMapBytes(plan) +
+         chunkBytes(plan, std::max(input, asHalf + layers + passed));
 }
 
 }  // namespace kagefude

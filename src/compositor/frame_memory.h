@@ -6,9 +6,10 @@
 namespace kagefude {
 
 /// Bytes that a frame holds while it is in flight, at most: the largest of its reading, its
-/// composition and its writing, which follow each other. Measured against the resident memory of
-/// whole runs, it is 1 to 1.6 times what a frame adds; the program itself (about 35 MB with the
-/// strips) is not in it. `preview`: a PNG is written as well. Cost: the headers of depth maps.
+/// composition and its writing, which follow each other, by as many threads as the current arena
+/// has. tests/e2e/memory_long.sh holds it against the resident memory of whole runs; the program
+/// itself (about 35 MB with the strips) is not in it. `preview`: a PNG is written as well. Cost:
+/// the headers of depth maps.
 size_t frameMemory(const Look& look, const FramePlan& plan, bool preview);
 
 }  // namespace kagefude

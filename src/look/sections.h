@@ -92,8 +92,9 @@ struct OutputParams {
   Compression compression = Compression::zip;
 };
 inline constexpr Parameter outputParameters[] = {
-    plain<&OutputParams::layers>("layers",
-                                 "layers beside R,G,B,A, names or globs: visibility.<light>, confidence.<light>, "
+    plain<&OutputParams::layers>(
+        "layers",
+        "layers beside R,G,B,A, names or globs: visibility.<light>, confidence.<light>, "
         "coverage.<light>, brush.tone, brush.angle, brush.repeat, outline, surface.id"),
     plain<&OutputParams::passthrough>("passthrough",
                                       "also writes every other input channel unchanged"),

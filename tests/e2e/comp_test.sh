@@ -50,7 +50,7 @@ for expected in 'pixel data origin: x=-7, y=5' 'full/display size: 300 x 200' 's
 done
 
 # Time code, rate, view and every channel's own type and bits pass through.
-oiiotool "$work/moved.0001.exr" -d float -d data.IndexMA.V=uint32 -d mask.Key.0.V=half \
+oiiotool "$work/moved.0001.exr" -d float -d data.IndexMA.V=uint -d mask.Key.0.V=half \
   --attrib:type=timecode smpte:TimeCode "01:02:03:04" --attrib:type=rational FramesPerSecond "24000/1001" \
   --attrib view left --attrib:type=float mine/number 2.5 -o "$work/typed.0001.exr"
 sed 's/shot.0001.exr/typed.0001.exr/' "$data/shot.0001.json" >"$work/typed.0001.json"
