@@ -14,7 +14,6 @@ namespace kagefude {
 namespace {
 
 constexpr size_t mostMasks = 64;
-constexpr size_t mostFollowed = 16;
 constexpr auto penumbra = static_cast<uint8_t>(ShadowClass::penumbra);
 constexpr auto umbra = static_cast<uint8_t>(ShadowClass::umbra);
 
@@ -190,8 +189,8 @@ LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks
     requireSize("the position pass", position, labels.width, labels.height);
     requireSize("the normal pass", normal, labels.width, labels.height);
     horizon.emplace(*geometry, places, position, normal);
-    if (!linear && !placesOnLine(places) && masks.size() <= mostFollowed)
-      follow.emplace(masks, places, labels, position, normal, *geometry, radius);
+    if (!linear && !placesOnLine(places) && masks.size() <= ShadowFollow::mostMasks)
+      follow.emplace(masks, places, distances, labels, position, normal, *geometry, radius);
   }
   const LightShare share(places, linear, radius);
   return resolve({masks, classes, wanted, labels, distances, share, follow ? &*follow : nullptr,

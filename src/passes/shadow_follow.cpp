@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "image/clones.h"
 #include "image/parallel.h"
 #include "image/real_math.h"
 
@@ -16,9 +17,13 @@ constexpr float trusted = 0.02f;     ///< mean disagreement up to which a match 
 constexpr float distrusted = 0.07f;  ///< and from which on not at all
 constexpr float grazing = 0.12f;     ///< cosine to the light up to which nothing is followed
 constexpr float facingWell = 0.3f;   ///< and from which on shifts are trusted fully
-constexpr float softness = 0.005f;   ///< disagreement that halves a tile's say, about
+constexpr float straight =
+    0.03f;                     ///< departure from one straight edge up to which nothing is followed
+constexpr float bent = 0.08f;  ///< and from which on all is; RMS, as a share of the shift
+constexpr float shortest = 4.0f;    ///< shift in pixels from which on answers are interpolated
+constexpr float softness = 0.005f;  ///< disagreement that halves a tile's say, about
 
-uint64_t packNormal(const V3f& n) {
+uint32_t packNormal(const V3f& n) {
   const float sum = std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z);
   if (!(sum > 0)) return 0;
   float u = n.x / sum, v = n.y / sum;
@@ -27,27 +32,60 @@ uint64_t packNormal(const V3f& n) {
     v = (1 - std::fabs(u)) * (v < 0 ? -1.0f : 1.0f);
     u = folded;
   }
-  const auto byte = [](float t) { return static_cast<uint64_t>(t * 127.0f + 127.5f); };
+  const auto byte = [](float t) { return static_cast<uint32_t>(t * 127.0f + 127.5f); };
   return byte(u) << 8 | byte(v);
-}
-
-bool alikeNormals(uint64_t a, uint64_t b) {
-  const int u = static_cast<int>(a >> 24 & 255) - static_cast<int>(b >> 24 & 255);
-  const int v = static_cast<int>(a >> 16 & 255) - static_cast<int>(b >> 16 & 255);
-  return std::abs(u) <= alike && std::abs(v) <= alike;
 }
 
 /// Floor of a pixel coordinate not far outside the frame; std::floor is a call on plain x86-64.
 int floorOf(float v) { return static_cast<int>(v + 4096.0f) - 4096; }
 
-uint32_t labelOf(uint64_t pixel) { return static_cast<uint32_t>(pixel >> 32); }
+struct Taps {
+  View<const uint32_t> labels, pixels;
+  uint32_t label, pixel;  ///< of the pixel looked from
+  float x, y;             ///< its centre
+  float ux, uy, vx, vy;   ///< pixels that a unit of place moves a tap
+};
+
+/// The share of weight that counts, and of lit weight, of every place: no sums across places, so
+/// that vectors of any length give the same bits.
+KAGEFUDE_CLONES void gatherTaps(const Taps& from, const ShadowFollow::Places& places, float* weight,
+                                float* lit) {
+  const int width = from.labels.width, height = from.labels.height;
+  const uint32_t *const labels = from.labels.data, *const pixels = from.pixels.data;
+  const uint32_t label = from.label;
+  const int u = static_cast<int>(from.pixel >> 24), v = static_cast<int>(from.pixel >> 16 & 255);
+  const float x = from.x, y = from.y, ux = from.ux, uy = from.uy, vx = from.vx, vy = from.vy;
+  const int count = places.count;
+  for (int i = 0; i < count; ++i) weight[i] = lit[i] = 0;
+  for (int t = 0; t < 3; ++t) {
+    const float *const ox = places.x[t], *const oy = places.y[t], *const share = places.weight[t];
+    const int32_t* const mask = places.mask[t];
+    for (int i = 0; i < count; ++i) {
+      const int qx = floorOf(x + ux * ox[i] + vx * oy[i]);
+      const int qy = floorOf(y + uy * ox[i] + vy * oy[i]);
+      const int cx = std::min(std::max(qx, 0), width - 1);
+      const int cy = std::min(std::max(qy, 0), height - 1);
+      const int at = cy * width + cx;
+      const uint32_t pixel = pixels[at];
+      const int du = static_cast<int>(pixel >> 24) - u;
+      const int dv = static_cast<int>(pixel >> 16 & 255) - v;
+      const bool counts = (qx == cx) & (qy == cy) & (labels[at] == label) & (du <= alike) &
+                          (du >= -alike) & (dv <= alike) & (dv >= -alike);
+      const float w = counts ? share[i] : 0.0f;
+      weight[i] += w;
+      lit[i] += (pixel >> mask[i] & 1) ? w : 0.0f;
+    }
+  }
+}
 
 }  // namespace
 
 ShadowFollow::ShadowFollow(std::span<const View<const uint8_t>> masks, std::span<const V2f> places,
-                           View<const uint32_t> labels, Vec3View position, Vec3View normal,
-                           const LightGeometry& geometry, float radius)
-    : labels_(labels),
+                           const std::vector<Distances>& distances, View<const uint32_t> labels,
+                           Vec3View position, Vec3View normal, const LightGeometry& geometry,
+                           float radius)
+    : distances_(distances),
+      labels_(labels),
       position_(position),
       normal_(normal),
       geometry_(geometry),
@@ -65,12 +103,14 @@ ShadowFollow::ShadowFollow(std::span<const View<const uint8_t>> masks, std::span
   pack(masks, normal);
   measure();
   choose();
+  if (tile_ > 4) fillSparse();
 }
 
-std::vector<ShadowFollow::Place> ShadowFollow::placesOf(std::span<const V2f> masks, int count,
-                                                        float radius) const {
+ShadowFollow::Places ShadowFollow::placesOf(std::span<const V2f> masks, int count,
+                                            float radius) const {
   const int ring = static_cast<int>(masks.size()) - 1;
-  std::vector<Place> result;
+  Places result;
+  result.count = count;
   for (int i = 0; i < count; ++i) {
     const float r = radius * std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(count));
     const float turn = static_cast<float>(i) * goldenTurn;
@@ -83,9 +123,15 @@ std::vector<ShadowFollow::Place> ShadowFollow::placesOf(std::span<const V2f> mas
     const float det = pa.x * pb.y - pa.y * pb.x;
     const float wa = std::max(0.0f, (p.x * pb.y - p.y * pb.x) / det);
     const float wb = std::max(0.0f, (pa.x * p.y - pa.y * p.x) / det);
-    result.push_back({{p - masks[0], p - pa, p - pb},
-                      {std::max(0.0f, 1.0f - wa - wb), wa, wb},
-                      {0, static_cast<uint8_t>(a), static_cast<uint8_t>(b)}});
+    const V2f offset[3] = {p - masks[0], p - pa, p - pb};
+    const float weight[3] = {std::max(0.0f, 1.0f - wa - wb), wa, wb};
+    const int mask[3] = {0, a, b};
+    for (int t = 0; t < 3; ++t) {
+      result.x[t][i] = offset[t].x;
+      result.y[t][i] = offset[t].y;
+      result.weight[t][i] = weight[t];
+      result.mask[t][i] = mask[t];
+    }
   }
   return result;
 }
@@ -94,11 +140,10 @@ void ShadowFollow::pack(std::span<const View<const uint8_t>> masks, Vec3View nor
   parallelRows(labels_.height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)
       for (int x = 0; x < labels_.width; ++x) {
-        uint64_t bits = 0;
+        uint32_t bits = 0;
         for (size_t k = 0; k < maskCount_; ++k)
-          bits |= static_cast<uint64_t>(masks[k](x, y) != 0) << k;
-        pixels_(x, y) =
-            static_cast<uint64_t>(labels_(x, y)) << 32 | packNormal(normal(x, y)) << 16 | bits;
+          bits |= static_cast<uint32_t>(masks[k](x, y) != 0) << k;
+        pixels_(x, y) = packNormal(normal(x, y)) << 16 | bits;
       }
   });
 }
@@ -148,43 +193,39 @@ ShadowFollow::Basis ShadowFollow::basisAt(int x, int y) const {
   return b;
 }
 
-ShadowFollow::Mean ShadowFollow::meanAt(const std::vector<Place>& places, int x, int y,
-                                        const Basis& b, float shift) const {
-  const uint64_t here = pixels_(x, y);
-  const float ux = -b.ux * shift, uy = -b.uy * shift, vx = -b.vx * shift, vy = -b.vy * shift;
-  const float fx = static_cast<float>(x) + 0.5f, fy = static_cast<float>(y) + 0.5f;
+ShadowFollow::Mean ShadowFollow::meanAt(const Places& places, int x, int y, const Basis& b,
+                                        float shift) const {
+  const Taps from{labels_,
+                  pixels_,
+                  labels_(x, y),
+                  pixels_(x, y),
+                  static_cast<float>(x) + 0.5f,
+                  static_cast<float>(y) + 0.5f,
+                  -b.ux * shift,
+                  -b.uy * shift,
+                  -b.vx * shift,
+                  -b.vy * shift};
+  float weight[Places::most], lit[Places::most];
+  gatherTaps(from, places, weight, lit);
   float visibility = 0, cost = 0, count = 0;
-  for (const Place& place : places) {
-    float lit = 0, weight = 0;
-    for (int i = 0; i < 3; ++i) {
-      const V2f& o = place.offset[i];
-      const int qx = floorOf(fx + ux * o.x + vx * o.y);
-      const int qy = floorOf(fy + uy * o.x + vy * o.y);
-      if (!labels_.contains(qx, qy)) continue;
-      const uint64_t pixel = pixels_(qx, qy);
-      if (labelOf(pixel) != labelOf(here) || !alikeNormals(pixel, here)) continue;
-      weight += place.weight[i];
-      lit += (pixel >> place.mask[i] & 1) ? place.weight[i] : 0.0f;
-    }
-    if (!(weight > 0.05f)) continue;
-    lit /= weight;
-    visibility += lit;
-    cost += lit * (1.0f - lit);
+  for (int i = 0; i < places.count; ++i) {
+    if (!(weight[i] > 0.05f)) continue;
+    const float seen = lit[i] / weight[i];
+    visibility += seen;
+    cost += seen * (1.0f - seen);
     count += 1;
   }
-  if (!(count > 0.85f * static_cast<float>(places.size()))) return {0, 0, false};
+  if (!(count > 0.85f * static_cast<float>(places.count))) return {0, 0, false};
   return {visibility / count, cost / count, true};
 }
 
 float ShadowFollow::mismatchAt(int x, int y, const Basis& b, float shift) const {
-  const uint64_t here = pixels_(x, y);
+  const uint32_t here = pixels_(x, y), label = labels_(x, y);
   float wrong = 0, count = 0;
   const auto check = [&](const V2f& move, size_t from, size_t to) {
-    const int qx = static_cast<int>(
-        std::floor(static_cast<float>(x) + 0.5f - shift * (b.ux * move.x + b.vx * move.y)));
-    const int qy = static_cast<int>(
-        std::floor(static_cast<float>(y) + 0.5f - shift * (b.uy * move.x + b.vy * move.y)));
-    if (!labels_.contains(qx, qy) || labelOf(pixels_(qx, qy)) != labelOf(here)) return;
+    const int qx = floorOf(static_cast<float>(x) + 0.5f - shift * (b.ux * move.x + b.vx * move.y));
+    const int qy = floorOf(static_cast<float>(y) + 0.5f - shift * (b.uy * move.x + b.vy * move.y));
+    if (!labels_.contains(qx, qy) || labels_(qx, qy) != label) return;
     count += 1;
     wrong += static_cast<float>((pixels_(qx, qy) >> from & 1) != (here >> to & 1));
   };
@@ -193,6 +234,37 @@ float ShadowFollow::mismatchAt(int x, int y, const Basis& b, float shift) const 
     check(-masks_[k], k, 0);
   }
   return count > 0 ? wrong / count : 1.0f;
+}
+
+float ShadowFollow::needAt(int x, int y) const {
+  const uint32_t all = (uint32_t{1} << maskCount_) - 1, bits = pixels_(x, y) & all;
+  if (bits == 0 || bits == all) return 1;
+  float s[mostMasks], mean = 0;
+  for (size_t k = 0; k < maskCount_; ++k) {
+    const int16_t d = distances_[k](x, y);
+    if (d == farLit || d == farDark) return 1;
+    s[k] = static_cast<float>(d) * distanceUnit;
+    mean += s[k];
+  }
+  mean /= static_cast<float>(maskCount_);
+  // The places are a centre and a ring of radius 1: their moments are known.
+  const float moment = 0.5f * static_cast<float>(maskCount_ - 1);
+  float u = 0, v = 0;
+  for (size_t k = 1; k < maskCount_; ++k) {
+    u += s[k] * masks_[k].x;
+    v += s[k] * masks_[k].y;
+  }
+  u /= moment;
+  v /= moment;
+  float off = 0;
+  for (size_t k = 0; k < maskCount_; ++k) {
+    const float d = s[k] - mean - u * masks_[k].x - v * masks_[k].y;
+    off += d * d;
+  }
+  const float shift = std::sqrt(u * u + v * v);
+  const float departure = std::sqrt(off / static_cast<float>(maskCount_));
+  return std::clamp((departure - straight * shift) / ((bent - straight) * shift + 1e-6f), 0.0f,
+                    1.0f);
 }
 
 void ShadowFollow::measure() {
@@ -204,15 +276,17 @@ void ShadowFollow::measure() {
 }
 
 void ShadowFollow::measureTile(int tx, int ty) {
-  const uint64_t all = (uint64_t{1} << maskCount_) - 1;
+  const uint32_t all = (uint32_t{1} << maskCount_) - 1;
   Tile& tile =
       tiles_[static_cast<size_t>(ty) * static_cast<size_t>(tilesX_) + static_cast<size_t>(tx)];
   const int step = tile_ / 2;
   for (int y = ty * tile_ + step / 2; y < std::min((ty + 1) * tile_, labels_.height); y += step)
     for (int x = tx * tile_ + step / 2; x < std::min((tx + 1) * tile_, labels_.width); x += step) {
-      const uint64_t bits = pixels_(x, y) & all;
+      const uint32_t bits = pixels_(x, y) & all;
       const uint32_t label = labels_(x, y);
-      if (label == 0 || bits == 0 || bits == all) continue;
+      // Large tiles: every other sample, as on a chessboard.
+      if (step > 2 && ((x + y) / step & 1)) continue;
+      if (label == 0 || bits == 0 || bits == all || !(needAt(x, y) > 0)) continue;
       Sums* sums = nullptr;
       for (Sums& s : tile.sums)
         if (!sums && (s.label == label || s.label == 0)) sums = &s;
@@ -289,7 +363,33 @@ void ShadowFollow::choose() {
   });
 }
 
-ShadowFollow::Answer ShadowFollow::at(int x, int y) const {
+void ShadowFollow::fillSparse() {
+  sparse_ = Plane<Answer>((labels_.width + 1) / 2, (labels_.height + 1) / 2);
+  parallelRows(sparse_.view().height, 2, [&](int y0, int y1) {
+    for (int y = y0; y < y1; ++y)
+      for (int x = 0; x < sparse_.view().width; ++x) sparse_(x, y) = measured(2 * x, 2 * y);
+  });
+}
+
+ShadowFollow::Answer ShadowFollow::between(int x, int y) const {
+  if ((x & 1) == 0 && (y & 1) == 0) return sparse_(x / 2, y / 2);
+  const uint32_t label = labels_(x, y);
+  float visibility = 0, trust = 0, count = 0;
+  for (int j = y / 2; j <= (y + 1) / 2; ++j)
+    for (int i = x / 2; i <= (x + 1) / 2; ++i) {
+      if (i >= sparse_.view().width || j >= sparse_.view().height) continue;
+      if (labels_(2 * i, 2 * j) != label) continue;
+      const Answer& a = sparse_(i, j);
+      if (a.trust > 0 && a.shift < shortest) return measured(x, y);
+      visibility += a.trust * a.visibility;
+      trust += a.trust;
+      count += 1;
+    }
+  if (count == 0) return measured(x, y);
+  return trust > 0 ? Answer{visibility / trust, trust / count, shortest} : Answer{};
+}
+
+ShadowFollow::Answer ShadowFollow::measured(int x, int y) const {
   const uint32_t label = labels_(x, y);
   const float gx = (static_cast<float>(x) + 0.5f) / static_cast<float>(tile_) - 0.5f;
   const float gy = (static_cast<float>(y) + 0.5f) / static_cast<float>(tile_) - 0.5f;
@@ -319,12 +419,14 @@ ShadowFollow::Answer ShadowFollow::at(int x, int y) const {
     sum += w;
   }
   if (!(sum > 0)) return {};
-  const float trust = std::clamp((distrusted - cost / sum) / (distrusted - trusted), 0.0f, 1.0f);
+  float trust = std::clamp((distrusted - cost / sum) / (distrusted - trusted), 0.0f, 1.0f);
+  if (trust > 0) trust *= needAt(x, y);
   if (trust <= 0) return {};
   const Basis b = basisAt(x, y);
   if (!b.valid) return {};
-  const Mean mean = meanAt(fine_, x, y, b, exp2Of(0.5f * level / sum));
-  return mean.valid ? Answer{mean.visibility, trust * b.trust} : Answer{};
+  const float shift = exp2Of(0.5f * level / sum);
+  const Mean mean = meanAt(fine_, x, y, b, shift);
+  return mean.valid ? Answer{mean.visibility, trust * b.trust, shift} : Answer{};
 }
 
 }  // namespace kagefude

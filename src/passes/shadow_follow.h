@@ -5,6 +5,7 @@
 
 #include "image/plane.h"
 #include "passes/light_shape.h"
+#include "passes/mask_distance.h"
 
 namespace kagefude {
 
@@ -24,28 +25,36 @@ namespace kagefude {
 /// between pixels but the tiles' sums, which are made in a fixed order.
 class ShadowFollow {
  public:
-  /// masks: at most 16, a disc's. wanted: where masks disagree (1), background 0 elsewhere 2.
+  static constexpr size_t mostMasks = 16;
+
+  /// masks: at most mostMasks, a disc's. distances: of the masks, measured where they disagree.
   ShadowFollow(std::span<const View<const uint8_t>> masks, std::span<const V2f> places,
-               View<const uint32_t> labels, Vec3View position, Vec3View normal,
-               const LightGeometry& geometry, float radius);
+               const std::vector<Distances>& distances, View<const uint32_t> labels,
+               Vec3View position, Vec3View normal, const LightGeometry& geometry, float radius);
+
+  /// Places on the light, each between three masks, in arrays for gathering.
+  struct Places {
+    static constexpr int most = 80;
+    int count = 0;
+    float x[3][most], y[3][most];  ///< offsets from the three masks, in units of place
+    float weight[3][most];
+    int32_t mask[3][most];
+  };
 
   struct Answer {
     float visibility = 1;
     float trust = 0;  ///< 0: use distances, 1: use this
+    float shift = 0;  ///< pixels, for the light's radius
   };
-  /// For pixels at or near a shadow's edge; elsewhere trust is 0.
-  Answer at(int x, int y) const;
+  /// For pixels at or near the edge of a shadow that distances do not explain; elsewhere trust is
+  /// 0.
+  Answer at(int x, int y) const { return sparse_.view().empty() ? measured(x, y) : between(x, y); }
 
  private:
   struct Basis {
     float ux, uy, vx, vy;  ///< pixels of the places' u and v, the longest shift being 1
     float trust;           ///< less where light grazes the surface, which may bend away
     bool valid;
-  };
-  struct Place {
-    V2f offset[3];  ///< to the three masks, in units of place
-    float weight[3];
-    uint8_t mask[3];
   };
   static constexpr int mostShifts = 16;
   /// Disagreements of one label in one tile.
@@ -64,22 +73,33 @@ class ShadowFollow {
   };
 
   void pack(std::span<const View<const uint8_t>> masks, Vec3View normal);
+  /// 0 where one straight edge, moved over the light, explains all distances of a pixel where masks
+  /// disagree, so that wedges are right without following; 1 where it is far from doing so, and
+  /// where masks agree and a shadow between them may have been missed.
+  float needAt(int x, int y) const;
+  Answer measured(int x, int y) const;
+  /// Large frames: answers of every other pixel in every other row.
+  void fillSparse();
+  /// Interpolated among those of the same label, but measured where shifts are so short that this
+  /// would blur.
+  Answer between(int x, int y) const;
   void measure();
   void measureTile(int tx, int ty);
   void choose();
   Choice chooseFor(int tx, int ty, uint32_t label) const;
   Basis basisAt(int x, int y) const;
-  std::vector<Place> placesOf(std::span<const V2f> masks, int count, float radius) const;
+  Places placesOf(std::span<const V2f> masks, int count, float radius) const;
   struct Mean {
     float visibility, cost;
     bool valid;
   };
-  Mean meanAt(const std::vector<Place>& places, int x, int y, const Basis& b, float shift) const;
+  Mean meanAt(const Places& places, int x, int y, const Basis& b, float shift) const;
 
   /// Share of masks that, moved by the shift, do not foretell what another sees here. Without it a
   /// shift that carries every tap past the shadow would agree with itself.
   float mismatchAt(int x, int y, const Basis& b, float shift) const;
 
+  const std::vector<Distances>& distances_;
   View<const uint32_t> labels_;
   Vec3View position_, normal_;
   LightGeometry geometry_;
@@ -88,13 +108,14 @@ class ShadowFollow {
   int tile_, tilesX_, tilesY_;
   int shifts_ = 0;
   float length_[mostShifts];
-  std::vector<Place> coarse_, fine_;
-  Plane<uint64_t> pixels_;  ///< label, normal, mask bits
+  Places coarse_, fine_;
+  Plane<uint32_t> pixels_;  ///< normal, mask bits
   std::vector<Tile> tiles_;
   struct Choices {
     Choice of[2];
   };
   std::vector<Choices> choices_;
+  Plane<Answer> sparse_;
 };
 
 }  // namespace kagefude
