@@ -40,9 +40,11 @@ std::optional<LightGeometry> geometryOf(const SidecarLight& source) {
       source.axisU == V3d(0, 0, 0))
     return std::nullopt;
   const double offset = source.masks->offset;
-  return LightGeometry{source.type == LightType::sun, toFloat(source.position),
-                       toFloat(source.direction), toFloat(source.axisU * offset),
-                       toFloat(source.axisV * offset)};
+  const bool round = source.type == LightType::point || source.type == LightType::spot;
+  return LightGeometry{
+      source.type == LightType::sun,  toFloat(source.position),
+      toFloat(source.direction),      toFloat(source.axisU * offset),
+      toFloat(source.axisV * offset), round && source.masks->arrangement == MaskArrangement::disc};
 }
 
 /// Irradiance at the subject up to a constant: how much this light shapes the tone.

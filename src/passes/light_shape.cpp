@@ -117,10 +117,23 @@ class Horizon {
       height[k] = middle + u * places_[k].x + v * places_[k].y;
       if ((height[k] > 0) != (masks[k](x, y) != 0)) return false;
     }
+    if (geometry_.sphere) turnToReceiver(n, towards, middle, std::span(height, masks.size()));
     return true;
   }
 
  private:
+  /// Heights of a disc of the same radius that faces the receiver, as a sphere is seen from there:
+  /// the masks' disc faces the subject, and over other receivers it stands less high.
+  void turnToReceiver(const V3f& n, const V3f& towards, float middle,
+                      std::span<float> height) const {
+    const float u = n.dot(geometry_.u), v = n.dot(geometry_.v);
+    const float sine2 = 1.0f - middle * middle / towards.dot(towards);
+    const float slope2 = u * u + v * v;
+    if (!(sine2 > 0) || !(slope2 > 0)) return;
+    const float stretch = std::sqrt(geometry_.u.dot(geometry_.u) * sine2 / slope2);
+    for (float& h : height) h = middle + (h - middle) * stretch;
+  }
+
   const LightGeometry& geometry_;
   std::span<const V2f> places_;
   Vec3View position_, normal_;
@@ -132,6 +145,7 @@ struct Inputs {
   View<const uint32_t> labels;
   const std::vector<Distances>& distances;
   const LightShare& share;
+  const LightShare& horizonShare;  ///< heights are linear over the light: by the closed form
   const ShadowFollow* follow;
   const Horizon* horizon;
   float grow;
@@ -144,7 +158,7 @@ void resolvePixel(const Inputs& in, int x, int y, float& visibility, float& conf
   if (in.labels(x, y) == 0) return;
   float height[mostMasks];
   if (in.horizon && kind == penumbra && in.horizon->explains(in.masks, x, y, height)) {
-    visibility = in.share.of(height);
+    visibility = in.horizonShare.of(height);
     return;
   }
   if (in.wanted(x, y)) {
@@ -192,9 +206,9 @@ LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks
     if (!linear && !placesOnLine(places) && masks.size() <= ShadowFollow::mostMasks)
       follow.emplace(masks, places, distances, labels, position, normal, *geometry, radius);
   }
-  const LightShare share(places, linear, radius);
-  return resolve({masks, classes, wanted, labels, distances, share, follow ? &*follow : nullptr,
-                  horizon ? &*horizon : nullptr, params.grow});
+  const LightShare share(places, linear, radius), horizonShare(places, true, radius);
+  return resolve({masks, classes, wanted, labels, distances, share, horizonShare,
+                  follow ? &*follow : nullptr, horizon ? &*horizon : nullptr, params.grow});
 }
 
 }  // namespace kagefude

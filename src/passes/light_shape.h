@@ -53,7 +53,8 @@ struct LightGeometry {
   V3f position{0, 0, 0};    ///< world; not for a sun
   V3f direction{0, 0, -1};  ///< unit, the way the light travels; for a sun only
   V3f u{0, 0, 0},
-      v{0, 0, 0};  ///< world vectors of one unit of place; for a sun change of direction
+      v{0, 0, 0};       ///< world vectors of one unit of place; for a sun change of direction
+  bool sphere = false;  ///< the light is round from every side: its disc faces each receiver
 };
 
 /// What masks lie on: all with v = 0 are a line, else a disc whose first mask is the centre.
