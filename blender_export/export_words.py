@@ -18,6 +18,8 @@ def export_words(settings, scene, output):
         words.append(f"--light={settings.light.name}")
     if not settings.offset_auto:
         words += ["--offset", repr(float(settings.offset))]
+    if settings.use_casters:
+        words.append("--casters")
     if settings.use_truth:
         words += ["--truth", str(settings.truth_samples)]
     return words

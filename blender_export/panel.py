@@ -40,6 +40,9 @@ class KagefudeSettings(bpy.types.PropertyGroup):
     use_truth: BoolProperty(
         name="Traced Truth", default=False,
         description="Also trace each light at its real size, to compare with")
+    use_casters: BoolProperty(
+        name="Casters", default=False,
+        description="Also write the shapes that cast shadows, to move or add lights in the comp")
     truth_samples: IntProperty(name="Samples", default=512, min=1, max=65536)
     scale: IntProperty(
         name="Scale", default=1, min=1, max=4,
@@ -77,6 +80,7 @@ class KAGEFUDE_PT_export(bpy.types.Panel):
         column.prop(settings, "scale")
         column.prop(settings, "depth_size")
         column = layout.column()
+        column.prop(settings, "use_casters")
         column.prop(settings, "use_truth")
         if settings.use_truth:
             column.prop(settings, "truth_samples")

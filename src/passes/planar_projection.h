@@ -13,12 +13,10 @@
 namespace kagefude {
 
 struct PlanarParams {
-  std::vector<float> color = {0, 0, 0};
   float alpha = 0.5f;
 };
 
 inline constexpr std::array planarParameters = {
-    numbers<&PlanarParams::color>("color", 3, 0, 1, "linear", "Flat colour of the shadow."),
     number<&PlanarParams::alpha>("alpha", 0, 1, "", "Opacity of the shadow."),
 };
 
@@ -47,7 +45,7 @@ std::vector<CasterMesh> projectedOnPlane(std::span<const CasterMesh> casters,
 /// Opacity of the flat shadow at each pixel of the receiver, 0 to alpha: the share of 8x8
 /// sub-pixels whose ray passes through a flattened caster. A sub-pixel counts once however many
 /// triangles cover it, as with the lecture's stencil. Casters with the receiver's own ID are left
-/// out; other pixels are 0. The picture is dst (1 - a) + color a.
+/// out; other pixels are 0. The visibility is 1 - a; the strip gives the shadow its colour.
 Floats planarShadow(const SeenSurface& surface, uint32_t receiverId, const ReceiverPlane& plane,
                     std::span<const CasterMesh> casters, const LightPlace& light,
                     const PlanarParams& params);

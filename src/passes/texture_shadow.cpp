@@ -89,13 +89,14 @@ Floats blobTone(Vec3View position, View<const uint32_t> ids, std::span<const Blo
           const V3d up = places[i].across.cross(places[i].along);
           tone(x, y) = std::min(tone(x, y), toneAt(places[i], up, point, picture, params));
         }
+        tone(x, y) = blendBlob(1.0f, tone(x, y), params.blend);
       }
   });
   return tone;
 }
 
-float blendBlob(float destination, float tone, float color, BlobBlend blend) {
-  const float source = blend == BlobBlend::alpha ? color : tone;
+float blendBlob(float destination, float tone, BlobBlend blend) {
+  const float source = blend == BlobBlend::alpha ? 0.0f : tone;
   return source * (1 - tone) + destination * tone;
 }
 

@@ -19,7 +19,6 @@ struct BlobParams {
   float reach = 0.05f;  ///< of the blob's larger side
   float strength = 0.6f;
   BlobBlend blend = BlobBlend::alpha;
-  std::vector<float> color = {0, 0, 0};
 };
 
 inline constexpr std::array blobParameters = {
@@ -33,10 +32,8 @@ inline constexpr std::array blobParameters = {
                                "How far above or below the blob's height surfaces still take it."),
     number<&BlobParams::strength>("strength", 0, 1, "", "Darkness of the blob where it is black."),
     choice<&BlobParams::blend>("blend", blobBlends,
-                               "Lays the blob's colour over the picture by its darkness, or "
-                               "multiplies by the blob as dst*src + src*(1-src)."),
-    numbers<&BlobParams::color>("color", 3, 0, 1, "linear",
-                                "Colour of the blob when it is blended by alpha."),
+                               "Lays black over the light by the blob's darkness, or blends as "
+                               "dst*src + src*(1-src), which is lighter and ends softer."),
 };
 
 inline constexpr ParameterTable blobTable = {
@@ -57,7 +54,8 @@ struct BlobPlace {
 BlobPlace blobUnder(const Transform& worldFromObject, const V3d& low, const V3d& high,
                     const V3d& up, double height, const BlobParams& params);
 
-/// Tone of the blobs at each pixel, 1 where there is none, 1 - strength at their darkest. `picture`
+/// Share of the light that the blobs leave at each pixel: full light blended with the tone of the
+/// blobs, which is 1 where there is none and 1 - strength at their darkest. `picture`
 /// is the painted blob, 0 black to 1 untouched, row 0 at the far end of `along`; an empty one
 /// stands for a round soft blob. Where blobs meet the darkest counts, once. Pixels with ID
 /// 0, and those of an object in `ownIds` under its own blob (same index as places; 0 = none), stay
@@ -67,8 +65,8 @@ Floats blobTone(Vec3View position, View<const uint32_t> ids, std::span<const Blo
                 std::span<const uint32_t> ownIds, View<const float> picture,
                 const BlobParams& params);
 
-/// One channel of the picture under a blob of the given tone, by the lecture's two blends:
-/// alpha: color*(1 - tone) + dst*tone; multiply: tone*(1 - tone) + dst*tone.
-float blendBlob(float destination, float tone, float color, BlobBlend blend);
+/// What is left of `destination` under a blob of the given tone, by the lecture's two blends (003):
+/// alpha, with a black blob: dst*tone; multiply: tone*(1 - tone) + dst*tone.
+float blendBlob(float destination, float tone, BlobBlend blend);
 
 }  // namespace kagefude

@@ -46,6 +46,15 @@ TEST(TextureShadow, DarkestInTheMiddleNothingOutside) {
   EXPECT_EQ(tone(11, 10), tone(9, 10)) << "round";
 }
 
+TEST(TextureShadow, MultiplyLeavesMoreLight) {
+  const GroundMap map;
+  const std::vector<BlobPlace> places = {BlobPlace()};
+  const Floats light = blobTone(map.position, map.ids, places, {}, {},
+                                {.strength = 0.6f, .blend = BlobBlend::multiply});
+  EXPECT_FLOAT_EQ(light(10, 10), 0.4f * 0.6f + 0.4f);
+  EXPECT_EQ(light(13, 10), 1.0f);
+}
+
 TEST(TextureShadow, BlobsThatMeetDoNotDarkenTwice) {
   const GroundMap map;
   const std::vector<BlobPlace> one = {BlobPlace()}, twice = {BlobPlace(), BlobPlace()};
@@ -84,11 +93,11 @@ TEST(TextureShadow, LeavesOutOwnerHighSurfacesBackgroundAndNaN) {
 }
 
 TEST(TextureShadow, BothBlendsByHand) {
-  EXPECT_FLOAT_EQ(blendBlob(0.8f, 0.25f, 0.1f, BlobBlend::alpha), 0.1f * 0.75f + 0.8f * 0.25f);
-  EXPECT_FLOAT_EQ(blendBlob(0.8f, 0.25f, 0.1f, BlobBlend::multiply), 0.25f * 0.75f + 0.8f * 0.25f);
+  EXPECT_FLOAT_EQ(blendBlob(0.8f, 0.25f, BlobBlend::alpha), 0.8f * 0.25f);
+  EXPECT_FLOAT_EQ(blendBlob(0.8f, 0.25f, BlobBlend::multiply), 0.25f * 0.75f + 0.8f * 0.25f);
   for (const BlobBlend blend : {BlobBlend::alpha, BlobBlend::multiply}) {
-    EXPECT_EQ(blendBlob(0.8f, 1, 0, blend), 0.8f);
-    EXPECT_EQ(blendBlob(0.8f, 0, 0, blend), 0.0f);
+    EXPECT_EQ(blendBlob(0.8f, 1, blend), 0.8f);
+    EXPECT_EQ(blendBlob(0.8f, 0, blend), 0.0f);
   }
 }
 
