@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/glob.h"
 #include "compositor/frame_edges.h"
 #include "compositor/frame_tone.h"
@@ -14,6 +16,16 @@ namespace kagefude {
 namespace {
 
 bool asksFor(const Look& look, const char* layer) { return matchesAny(layer, look.output.layers); }
+
+/// Repeat counts run far above 1; their fractions show the rings.
+Floats fractions(View<const float> values) {
+  Floats result(values.width, values.height);
+  parallelRows(values.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < values.width; ++x) result(x, y) = values(x, y) - std::floor(values(x, y));
+  });
+  return result;
+}
 
 void multiplyAlbedo(const FramePlanes& planes, const StyledSurfaces& styled, BrushResult& brush) {
   if (planes.albedo.empty()) return;
@@ -77,7 +89,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   BrushResult brush = paintStyles(strips, planes, tone, styled, diagnostics);
   if (sink) {
     sink->number("brush.angle", brush.angle);
-    sink->number("brush.repeat", brush.repeat);
+    sink->number("brush.repeat, within each ring", fractions(brush.repeat));
   }
   multiplyAlbedo(planes, styled, brush);
   blendEdges(plan, planes, brush);

@@ -236,9 +236,25 @@ float ShadowFollow::mismatchAt(int x, int y, const Basis& b, float shift) const 
   return count > 0 ? wrong / count : 1.0f;
 }
 
+bool ShadowFollow::besideOpposite(int x, int y, uint32_t opposite, uint32_t all) const {
+  constexpr int within = 12;
+  constexpr int steps[8][2] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
+                               {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+  const uint32_t label = labels_(x, y);
+  for (const auto& step : steps)
+    for (int i = 1; i <= within; ++i) {
+      const int nx = x + i * step[0], ny = y + i * step[1];
+      if (!labels_.contains(nx, ny)) break;
+      if (labels_(nx, ny) == label && (pixels_(nx, ny) & all) == opposite) return true;
+    }
+  return false;
+}
+
 float ShadowFollow::needAt(int x, int y) const {
   const uint32_t all = (uint32_t{1} << maskCount_) - 1, bits = pixels_(x, y) & all;
-  if (bits == 0 || bits == all) return 1;
+  // Where the masks agree, only a shadow thinner than its shift can be missed by all of them;
+  // beside one that all masks show, there is nothing to follow.
+  if (bits == 0 || bits == all) return besideOpposite(x, y, all & ~bits, all) ? 0.0f : 1.0f;
   float s[mostMasks], mean = 0;
   for (size_t k = 0; k < maskCount_; ++k) {
     const int16_t d = distances_[k](x, y);

@@ -76,6 +76,8 @@ class ShadowFollow {
   /// 0 where one straight edge, moved over the light, explains all distances of a pixel where masks
   /// disagree, so that wedges are right without following; 1 where it is far from doing so, and
   /// where masks agree and a shadow between them may have been missed.
+  /// Whether a pixel of the same label near (x, y) shows `opposite` in all masks.
+  bool besideOpposite(int x, int y, uint32_t opposite, uint32_t all) const;
   float needAt(int x, int y) const;
   Answer measured(int x, int y) const;
   /// Large frames: answers of every other pixel in every other row.
