@@ -70,12 +70,16 @@ std::string summaryOf(const BatchResult& result) {
   return text;
 }
 
-int finish(const BatchResult& result, const std::vector<FrameJob>& jobs,
+/// Without --skip-bad-frames the first failure is what ended the run; a neighbour that was in
+/// flight and failed as well adds nothing.
+int finish(const BatchResult& result, const std::vector<FrameJob>& jobs, bool skipBadFrames,
            const Interrupts& interrupts, ProgressSink& progress, Console& console) {
   const bool failed = !result.failures.empty() || result.stopped;
   progress.end(summaryOf(result), failed);
-  for (const FrameFailure& failure : result.failures)
+  for (const FrameFailure& failure : result.failures) {
     console.err << "ERROR: " << jobs[failure.index].name() << ": " << failure.message << std::endl;
+    if (!skipBadFrames) break;
+  }
   if (result.stopped) return interrupts.exitCode();
   return failed ? someFailed : allGood;
 }
@@ -147,7 +151,7 @@ int comp(const CompOptions& options, Console& console) {
     });
   });
   report.finish();
-  return finish(result, batch.jobs(), interrupts, *progress, console);
+  return finish(result, batch.jobs(), options.skipBadFrames, interrupts, *progress, console);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <mutex>
 #include <sstream>
 
 #include "base/error.h"
@@ -24,6 +25,11 @@ struct Colour::State {
   // Applies the processor that `make` returns; a broken one (a missing LUT) is an InputError.
   template <class Make>
   void apply(const Make& make, View<float> red, View<float> green, View<float> blue) const;
+
+  /// OCIO fills its list of displays when first asked, and makes processors, without minding other
+  /// threads that ask as well.
+  mutable std::mutex mutex;
+  std::unique_lock<std::mutex> lock() const { return std::unique_lock(mutex); }
 };
 
 namespace {
@@ -54,6 +60,7 @@ std::string requireName(const std::string& given, std::string_view what,
 }  // namespace
 
 std::string Colour::State::requireSpace(std::string_view name) const {
+  const auto alone = lock();
   const std::string given(name);
   if (const auto space = config->getColorSpace(given.c_str())) return space->getName();
   return requireName(given, "space", spaceNames(config), source);
@@ -66,6 +73,7 @@ void Colour::State::apply(const Make& make, View<float> red, View<float> green,
   try {
     // OCIO's own power functions are used on every machine, so results do not depend on the C
     // library's choice of code for the processor.
+    const auto alone = lock();
     cpu = make()->getOptimizedCPUProcessor(ocio::OPTIMIZATION_DEFAULT);
   } catch (const ocio::Exception& problem) {
     throw InputError(
@@ -119,15 +127,22 @@ void Colour::fromWorking(View<float> red, View<float> green, View<float> blue,
   state_->apply(make, red, green, blue);
 }
 
-void Colour::toDisplay(View<float> red, View<float> green, View<float> blue,
-                       std::string_view display, std::string_view view) const {
+std::pair<std::string, std::string> Colour::shownThrough(std::string_view display,
+                                                         std::string_view view) const {
+  const auto alone = state_->lock();
   const auto& config = state_->config;
   const std::string defaultDisplay = config->getDefaultDisplay();
   const std::string shownOn = requireName(display.empty() ? defaultDisplay : std::string(display),
                                           "display", displays(), state_->source);
   const std::string defaultView = config->getDefaultView(shownOn.c_str());
-  const std::string seenAs = requireName(view.empty() ? defaultView : std::string(view), "view",
-                                         views(shownOn), state_->source);
+  return {shownOn, requireName(view.empty() ? defaultView : std::string(view), "view",
+                               views(shownOn), state_->source)};
+}
+
+void Colour::toDisplay(View<float> red, View<float> green, View<float> blue,
+                       std::string_view display, std::string_view view) const {
+  const auto& config = state_->config;
+  const auto [shownOn, seenAs] = shownThrough(display, view);
   const auto make = [&] {
     return config->getProcessor(ocio::ROLE_SCENE_LINEAR, shownOn.c_str(), seenAs.c_str(),
                                 ocio::TRANSFORM_DIR_FORWARD);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "image/plane.h"
@@ -12,7 +13,8 @@ namespace kagefude {
 
 /// Colour transforms by an OpenColorIO configuration. Colour only: never hand data planes to it.
 /// Transforms are the configuration's own, on the CPU, by OCIO's portable code: the same bits for
-/// any number of threads. Planes are changed in place; all three must be of one size.
+/// any number of threads, and one object serves several at a time. Planes are changed in place; all
+/// three must be of one size.
 class Colour {
  public:
   /// `config` is a path; empty: the file that $OCIO names, else the built-in configuration (spaces
@@ -47,6 +49,9 @@ class Colour {
   std::vector<std::string> views(std::string_view display) const;
 
  private:
+  std::pair<std::string, std::string> shownThrough(std::string_view display,
+                                                   std::string_view view) const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -1,7 +1,10 @@
 #include "frame/colour.h"
 
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <latch>
+#include <thread>
 
 #include "frame_fixtures.h"
 
@@ -65,6 +68,28 @@ TEST_F(ColourTest, ConfigsThatCannotBeUsedAreInputErrors) {
                  "bad.ocio");
   expectContains(messageOf<InputError>([&] { Colour((folder / "none.ocio").string()); }),
                  "none.ocio");
+}
+
+TEST_F(ColourTest, ServesSeveralThreadsFromItsFirstCallOn) {
+  // OCIO lists displays when first asked; two threads that asked at once found an empty list.
+  for (int round = 0; round < 500; ++round) {
+    const Colour colour;
+    std::atomic<int> failures{0};
+    std::latch together(4);
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i)
+      threads.emplace_back([&] {
+        try {
+          Floats r(1, 1, 0.5f), g(1, 1, 0.5f), b(1, 1, 0.5f);
+          together.arrive_and_wait();
+          colour.toDisplay(r, g, b);
+        } catch (const std::exception&) {
+          ++failures;
+        }
+      });
+    for (std::thread& thread : threads) thread.join();
+    ASSERT_EQ(failures, 0) << round;
+  }
 }
 
 TEST_F(ColourTest, EnvironmentNamesTheDefault) {
