@@ -20,7 +20,7 @@ constexpr size_t asHalf = 8;
 constexpr size_t ofIds = 4;
 constexpr size_t ofReadingIds = 16;  // two ranks of a Cryptomatte
 constexpr size_t ofEdgeRanks = 32;   // four ranks of a Cryptomatte
-constexpr size_t ofMaskSearch = 8;   // a mask's signed distance, and what its search needs
+constexpr size_t ofMaskSearch = 4;   // a mask's signed distance, and what its search needs
 
 size_t layerBytes(const Look& look, const FramePlan& plan) {
   std::vector<std::string> names = {"brush.tone", "brush.angle", "brush.repeat", "outline",

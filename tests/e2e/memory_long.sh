@@ -19,8 +19,8 @@ code = subprocess.run(sys.argv[1:], stderr=subprocess.DEVNULL).returncode
 print(code, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss // 1024)
 PY
 for look in plain all; do
-  for bound in 260 420 900; do
-    [ "$look$bound" != all260 ] || continue
+  for bound in 320 520 900; do
+    [ "$look$bound" != all320 ] || continue
     read -r code peak < <(python3 "$work/peak.py" "$kagefude" comp "$work/$look.toml" "$work/in/shot.####.exr" \
       -o "$work/out/shot.####.exr" --threads 4 --max-memory "${bound}M" --progress none --preview "$work/out")
     echo "$look, $bound MiB allowed: $peak MiB"
