@@ -46,7 +46,16 @@ bool multipliesColour(const StyleParams& style) {
   return style.colour == StripColour::multiply;
 }
 
-StripSet::StripSet(const Look& look, const Colour& colour) {
+int StripSet::indexOf(const std::string& name) const {
+  const int index = indices_.at(name);
+  if (index == 0)
+    tbb::collaborative_call_once(neutral_, [this] {
+      strips_[0] = loadBuiltin(colour_, StyleParams{}.strip.substr(builtinPrefix.size()));
+    });
+  return index;
+}
+
+StripSet::StripSet(const Look& look, const Colour& colour) : colour_(colour) {
   std::vector<std::string> names = {StyleParams{}.strip};
   for (const StyleLook& style : look.styles) names.push_back(style.style.strip);
   std::vector<std::string> distinct;
@@ -54,8 +63,8 @@ StripSet::StripSet(const Look& look, const Colour& colour) {
     if (indices_.emplace(name, static_cast<int>(distinct.size())).second) distinct.push_back(name);
   strips_.resize(distinct.size());
   std::vector<std::exception_ptr> errors(distinct.size());
-  parallelRows(static_cast<int>(distinct.size()), 1, [&](int first, int) {
-    const auto i = static_cast<size_t>(first);
+  parallelRows(static_cast<int>(distinct.size()) - 1, 1, [&](int first, int) {
+    const auto i = static_cast<size_t>(first) + 1;
     try {
       strips_[i] = loadStrip(look, colour, distinct[i]);
     } catch (...) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tbb/collaborative_call_once.h>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -13,16 +15,19 @@ namespace kagefude {
 /// The strips of a look, loaded once a run, in the working space with their mip levels.
 class StripSet {
  public:
-  /// Loads every style's strip, and the one that surfaces without a style get. Throws InputError
-  /// when a file cannot be used, LookError when a built-in name is unknown.
+  /// Loads every style's strip. Throws InputError when a file cannot be used, LookError when a
+  /// built-in name is unknown. `colour` must outlive the set.
   StripSet(const Look& look, const Colour& colour);
 
-  /// The index of a style's strip in strips(); "builtin:neutral" for surfaces without a style.
-  int indexOf(const std::string& name) const { return indices_.at(name); }
+  /// The index of a style's strip in strips(); "builtin:neutral" for surfaces without a style. That
+  /// one is painted when it is first asked for: many looks leave no surface to it.
+  int indexOf(const std::string& name) const;
   const std::vector<Strip>& strips() const { return strips_; }
 
  private:
-  std::vector<Strip> strips_;
+  const Colour& colour_;
+  mutable std::vector<Strip> strips_;  ///< the first is the neutral one, empty until asked for
+  mutable tbb::collaborative_once_flag neutral_;
   std::map<std::string, int> indices_;
 };
 
