@@ -66,7 +66,7 @@ void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageS
 }  // namespace
 
 FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePlan& plan,
-                         FramePlanes planes, StageSink* sink) {
+                         FramePlanes planes, StageSink* sink, StageClock* clock) {
   FrameResult result;
   result.warnings = plan.warnings;
   if (planes.casting)
@@ -78,15 +78,18 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
                     planes.badPixels));
   Labels surfaces =
       labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces);
+  lap(clock, "surfaces");
   if (sink) showInputs(planes, surfaces, *sink);
-  Floats tone = frameTone(look, plan, planes, surfaces, result, sink);
+  Floats tone = frameTone(look, plan, planes, surfaces, result, sink, clock);
   if (asksFor(look, "surface.id")) result.surfaceId = std::move(surfaces);
 
   const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
   adjustTone(tone, styled.anchorIndex, styled.tones);
+  lap(clock, "styles and tone");
   if (sink) sink->number("brush.tone", tone);
   const bool diagnostics = sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");
   BrushResult brush = paintStyles(strips, planes, tone, styled, diagnostics);
+  lap(clock, "brush");
   if (sink) {
     sink->number("brush.angle", brush.angle);
     sink->number("brush.repeat, within each ring", fractions(brush.repeat));
@@ -94,6 +97,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   multiplyAlbedo(planes, styled, brush);
   blendEdges(plan, planes, brush);
   Floats outline = drawStyleOutlines(look, plan, planes, styled, asksFor(look, "outline"), brush);
+  lap(clock, "edges and outlines");
   if (sink && !outline.empty()) sink->number("outline", outline);
   if (look.output.background == Background::beauty && !planes.beauty.empty())
     putBeautyBehind(planes, brush);

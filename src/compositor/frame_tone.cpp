@@ -39,18 +39,21 @@ std::vector<float> normalisedWeights(const std::vector<FrameLight>& lights) {
 }  // namespace
 
 Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& planes,
-                 View<const uint32_t> surfaces, FrameResult& result, StageSink* sink) {
+                 View<const uint32_t> surfaces, FrameResult& result, StageSink* sink,
+                 StageClock* clock) {
   std::vector<Floats> tones;
   for (size_t i = 0; i < plan.lights.size(); ++i) {
     const FrameLight& light = plan.lights[i];
     LightVisibility shadow = lightVisibility(light, plan, planes.lights[i], planes, surfaces, sink);
     Floats visibility = std::move(shadow.visibility);
+    lap(clock, fmt::format("visibility.{}", light.name));
     Floats tone =
         lambertShade(planes.normal, planes.position, surfaces, light.light, light.passes.shade);
     if (sink) sink->number(fmt::format("shade of {}", light.name), tone);
     weaken(visibility, light.strength);
     mergeTone(visibility, tone, light.passes.merge, tone);
     tones.push_back(std::move(tone));
+    lap(clock, fmt::format("shade and merge of {}", light.name));
     const bool geometric = light.method == ShadowMethod::coverage;
     if (geometric && matchesAny(fmt::format("coverage.{}", light.name), look.output.layers))
       result.layers.push_back({fmt::format("coverage.{}", light.name), complement(visibility)});

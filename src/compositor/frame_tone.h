@@ -2,6 +2,7 @@
 
 #include "compositor/frame_plan.h"
 #include "compositor/frame_result.h"
+#include "compositor/stage_clock.h"
 #include "compositor/stage_sink.h"
 
 namespace kagefude {
@@ -10,6 +11,7 @@ namespace kagefude {
 /// summed by the lights' weights. Layers visibility.<light> go to `result` where the look asks for
 /// them.
 Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& planes,
-                 View<const uint32_t> surfaces, FrameResult& result, StageSink* sink);
+                 View<const uint32_t> surfaces, FrameResult& result, StageSink* sink,
+                 StageClock* clock);
 
 }  // namespace kagefude

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <type_traits>
+
+#include "image/plane_memory.h"
 
 namespace kagefude {
 
@@ -42,13 +40,8 @@ class Plane {
  public:
   Plane() = default;
   Plane(int width, int height) : width_(width), height_(height) {
-    const size_t wanted = view().pixels() * sizeof(T) + 64;
-    // Large planes start on a huge page and ask for them: thousands of page faults fewer.
-    const size_t alignment = wanted >= 2 * hugePage ? hugePage : 64;
-    const size_t bytes = (wanted + alignment - 1) / alignment * alignment;
-    data_.reset(static_cast<T*>(std::aligned_alloc(alignment, bytes)));
-    if (!data_) throw std::bad_alloc();
-    if (alignment == hugePage) ::madvise(data_.get(), bytes, MADV_HUGEPAGE);
+    data_.reset(static_cast<T*>(takePlaneMemory(bytes())));
+    data_.get_deleter().bytes = bytes();
   }
   Plane(int width, int height, T value) : Plane(width, height) { fill(value); }
 
@@ -75,9 +68,11 @@ class Plane {
   operator View<const T>() const { return view(); }
 
  private:
-  static constexpr size_t hugePage = size_t{2} << 20;
+  size_t bytes() const { return view().pixels() * sizeof(T) + 64; }
+
   struct Free {
-    void operator()(T* p) const { std::free(p); }
+    size_t bytes = 0;
+    void operator()(T* p) const { givePlaneMemory(p, bytes); }
   };
   std::unique_ptr<T, Free> data_;
   int width_ = 0;

@@ -45,16 +45,10 @@ inline SinCos sinCosTurns(float turns) {
   const float cosine =
       1.0f + s * (-0.5f + s * (4.1666668e-2f +
                                s * (-1.3888890e-3f + s * (2.4801588e-5f - s * 2.7557e-7f))));
-  switch (static_cast<int>(nearest) & 3) {
-    case 0:
-      return {sine, cosine};
-    case 1:
-      return {cosine, -sine};
-    case 2:
-      return {-sine, -cosine};
-    default:
-      return {-cosine, sine};
-  }
+  const int quarter = static_cast<int>(nearest);
+  const bool swapped = (quarter & 1) != 0;
+  const float up = swapped ? cosine : sine, along = swapped ? sine : cosine;
+  return {(quarter & 2) != 0 ? -up : up, ((quarter + 1) & 2) != 0 ? -along : along};
 }
 
 /// Base-2 logarithm of a positive normal number; relative to 1, absolute error below 2e-7 near 1

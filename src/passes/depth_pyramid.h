@@ -10,20 +10,23 @@ struct DepthRange {
   float nearest, farthest;
 };
 
-/// Smallest and largest depth over any rectangle of a shadow map, conservatively, in constant time.
-/// NaN depths count as infinitely far. Cost: one read of the map; 2/3 of its bytes.
+/// Smallest and largest depth over squares of a shadow map: level k holds those of 2^k texels a
+/// side. NaN depths count as infinitely far. Cost: one read of the map; 2/3 of its bytes.
 class DepthPyramid {
  public:
   explicit DepthPyramid(View<const float> depth);
 
-  /// Bounds over the texels [x0, x1] x [y0, y1], which must touch the map; the range may include
-  /// texels around the rectangle.
-  DepthRange range(int x0, int y0, int x1, int y1) const;
+  /// Bounds over the whole map.
+  DepthRange whole() const;
+
+  struct Level {
+    View<const float> nearest, farthest;
+    int shift;  ///< texel x lies in column x >> shift
+  };
+  /// The finest level from 1 on at which `texels` texels in a row touch at most two columns.
+  Level levelFor(int texels) const;
 
  private:
-  DepthRange at(int level, int x, int y) const;
-
-  View<const float> depth_;
   std::vector<Floats> nearest_, farthest_;  ///< level 1 and up; each halves the one below
 };
 

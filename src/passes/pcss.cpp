@@ -1,10 +1,9 @@
 #include "passes/pcss.h"
 
-#include <cmath>
-#include <optional>
+#include <algorithm>
+#include <vector>
 
 #include "image/parallel.h"
-#include "passes/depth_pyramid.h"
 #include "passes/map_taps.h"
 #include "passes/require_size.h"
 
@@ -20,50 +19,69 @@ class Pcss {
         params_(params),
         lightRadius_(lightRadius * params.lightSize),
         pyramid_(map.depth),
-        nearest_(pyramid_.range(0, 0, map.depth.width - 1, map.depth.height - 1).nearest),
+        projector_(map),
         search_(spiralPoints(params.search)),
         filter_(spiralPoints(params.samples)) {}
 
-  float at(int x, int y, const V3f& position, const V3f& normal) const {
-    const std::optional<MapReceiver> r = receiveOnMap(map_, position, normal);
-    if (!r) return 1.0f;
-    if (r->turnedAway) return 0.0f;
-    TapTest test{radiusFor(*r, nearest_),
-                 params_.bias / r->texelsPerUnit + 2e-6f * std::fabs(r->depth), params_.slopeBias,
-                 params_.spreadBias};
-    if (nothingBefore(*r, test)) return 1.0f;
-    const SinCos turn = sinCosTurns(pixelTurn(x, y, params_.seed));
-    const TapCount found = countTaps(map_.depth, *r, search_, turn, test);
-    if (found.blocked == 0) return 1.0f;
-    test.radius = radiusFor(*r, found.blockerDepth / static_cast<float>(found.blocked));
-    const TapCount count = countTaps(map_.depth, *r, filter_, turn, test);
-    return static_cast<float>(count.lit) / static_cast<float>(filter_.size());
+  void row(Vec3View position, Vec3View normal, View<const uint32_t> labels, int y,
+           float* visibility) const {
+    MapReceivers receivers;
+    for (int x = 0; x < labels.width; x += MapReceivers::capacity) {
+      const int count = std::min(MapReceivers::capacity, labels.width - x);
+      projector_.receive(position, normal, labels, x, y, count, receivers);
+      settleByPyramid(pyramid_, map_.depth, searchFor(receivers), false, receivers);
+      receivers.storeKnown(visibility);
+      if (receivers.count == 0) continue;
+      findPenumbra(receivers, y);
+      for (int i = 0; i < receivers.count; ++i)
+        visibility[receivers.column[i]] = receivers.visibility[i];
+    }
   }
 
  private:
-  /// Texels that the light's disc covers, seen from the receiver through a blocker of that depth.
-  float radiusFor(const MapReceiver& r, float blocker) const {
-    const float between = std::max(0.0f, r.depth - blocker);
+  /// Texels that the light's disc covers, seen from a receiver through a blocker of that depth.
+  float radiusFor(const MapReceivers& r, int lane, float blocker) const {
+    const float between = std::max(0.0f, r.depth[lane] - blocker);
     const float world =
         lightRadius_ * (r.perspective ? between / std::max(blocker, 1e-6f) : between);
-    return std::min(world * r.texelsPerUnit, largestRadius);
+    return std::min(world * r.texelsPerUnit[lane], largestRadius);
   }
 
-  bool nothingBefore(const MapReceiver& r, const TapTest& test) const {
-    const float reach = test.radius + 1.0f;
-    const auto texel = [](float v) { return static_cast<int>(std::floor(v)); };
-    const int x0 = texel(r.u - reach), x1 = texel(r.u + reach);
-    const int y0 = texel(r.v - reach), y1 = texel(r.v + reach);
-    if (x1 < 0 || y1 < 0 || x0 >= map_.depth.width || y0 >= map_.depth.height) return true;
-    return r.planeDepthBounds(reach, test.slopeBias).high - test.bias <=
-           pyramid_.range(x0, y0, x1, y1).nearest;
+  TapTest searchFor(const MapReceivers& receivers) const {
+    TapTest test;
+    test.slopeBias = params_.slopeBias;
+    test.spreadBias = params_.spreadBias;
+    test.setBias(receivers, params_.bias);
+    const float nearest = pyramid_.whole().nearest;
+    for (int i = 0; i < receivers.count; ++i) test.radius[i] = radiusFor(receivers, i, nearest);
+    return test;
+  }
+
+  /// Looks for blockers, then filters over a disc of the size that they call for.
+  void findPenumbra(MapReceivers& receivers, int y) const {
+    const TapTurns turns(receivers, y, params_.seed);
+    TapTest test = searchFor(receivers);
+    TapCounts found, counts;
+    countTaps(map_.depth, receivers, search_, turns, test, found);
+    for (int i = 0; i < receivers.count; ++i)
+      test.radius[i] =
+          found.blocked[i] == 0
+              ? 0.0f
+              : radiusFor(receivers, i,
+                          found.blockerDepth[i] / static_cast<float>(found.blocked[i]));
+    countTaps(map_.depth, receivers, filter_, turns, test, counts);
+    for (int i = 0; i < receivers.count; ++i)
+      receivers.visibility[i] = found.blocked[i] == 0
+                                    ? 1.0f
+                                    : static_cast<float>(params_.samples - counts.blocked[i]) /
+                                          static_cast<float>(params_.samples);
   }
 
   const ShadowMap& map_;
   const PcssParams& params_;
   float lightRadius_;
   DepthPyramid pyramid_;
-  float nearest_;
+  MapProjector projector_;
   std::vector<V2f> search_, filter_;
 };
 
@@ -77,12 +95,7 @@ Floats pcssVisibility(Vec3View position, Vec3View normal, View<const uint32_t> l
   const Pcss pcss(map, lightRadius, params);
   Floats visibility(labels.width, labels.height);
   parallelRows(labels.height, [&](int y0, int y1) {
-    for (int y = y0; y < y1; ++y)
-      for (int x = 0; x < labels.width; ++x)
-        visibility(x, y) =
-            labels(x, y) == 0
-                ? 1.0f
-                : pcss.at(x, y, position(x, y), normal.empty() ? V3f(0, 0, 0) : normal(x, y));
+    for (int y = y0; y < y1; ++y) pcss.row(position, normal, labels, y, visibility.row(y));
   });
   return visibility;
 }

@@ -3,15 +3,13 @@
 #include <OpenImageIO/imageio.h>
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "contest.h"
 #include "frame/exr_fast_read.h"
 #include "frame/exr_fast_write.h"
 #include "image/parallel.h"
@@ -21,7 +19,6 @@ namespace {
 
 constexpr int width = 3840;
 constexpr int height = 2160;
-constexpr int rounds = 5;
 
 /// Noise in [-1, 1] that depends on its arguments alone.
 float noise(int x, int y, int seed) {
@@ -178,27 +175,6 @@ void fastRead(const std::string& path, int channels) {
   benchmark::DoNotOptimize(planes.data());
 }
 
-using Contender = std::function<void()>;
-
-/// Median seconds of each contender; they take turns, so that drift hits all alike.
-std::vector<double> contest(const std::vector<Contender>& contenders) {
-  using Clock = std::chrono::steady_clock;
-  std::vector<std::vector<double>> times(contenders.size());
-  for (int round = 0; round < rounds; ++round) {
-    for (size_t i = 0; i < contenders.size(); ++i) {
-      const auto start = Clock::now();
-      contenders[i]();
-      times[i].push_back(std::chrono::duration<double>(Clock::now() - start).count());
-    }
-  }
-  std::vector<double> medians;
-  for (auto& t : times) {
-    std::nth_element(t.begin(), t.begin() + rounds / 2, t.end());
-    medians.push_back(t[rounds / 2]);
-  }
-  return medians;
-}
-
 void exrRead4K20(benchmark::State& state) {
   const std::string path = benchFile("kagefude_bench_read.exr");
   {
@@ -208,7 +184,7 @@ void exrRead4K20(benchmark::State& state) {
     output->write_image(OIIO::TypeFloat, pixels.get());
   }
   for (auto _ : state) {
-    const auto t = contest({[&] { fastRead(path, 20); }, [&] { oiioRead(path, false); },
+    const auto t = bench::contest({[&] { fastRead(path, 20); }, [&] { oiioRead(path, false); },
                             [&] { oiioRead(path, true); }, [&] { fastRead(path, 4); }});
     state.counters["ours_ms"] = 1e3 * t[0];
     state.counters["ours_4ch_ms"] = 1e3 * t[3];
@@ -235,7 +211,7 @@ void exrWrite(benchmark::State& state) {
     sizes[static_cast<int>(effort)] = static_cast<double>(std::filesystem::file_size(ours));
   };
   for (auto _ : state) {
-    const auto t = contest({[&] { write(ExrEffort::fast); }, [&] { write(ExrEffort::balanced); },
+    const auto t = bench::contest({[&] { write(ExrEffort::fast); }, [&] { write(ExrEffort::balanced); },
                             [&] { write(ExrEffort::small); },
                             [&] {
                               const auto output = OIIO::ImageOutput::create(theirs);

@@ -49,6 +49,14 @@ def main(path):
             missed += not kept
             row(name, peer + (" (times faster)" if faster else " (times its time)"), ratio, gate, kept)
     for bench in run["benchmarks"]:
+        if bench.get("error_occurred"):
+            print(f"| {bench['name']} | {bench['error_message']} | | | |")
+            missed += not bench["error_message"].endswith("not installed")
+        if "gate" in bench:
+            kept = bench["ratio"] >= bench["gate"]
+            missed += not kept
+            row(bench["name"].removesuffix("/iterations:1"), f"{bench['label']} (times faster)",
+                bench["ratio"], bench["gate"], kept)
         for counter, label, gate in (("ratio_oiio", "EXR zip read, 20 channels", 3.5),
                                      ("ratio_core", "EXR zip read, against openexr:core", 2)):
             if counter in bench:

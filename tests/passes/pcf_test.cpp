@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
-#include "passes/depth_pyramid.h"
-#include "passes/map_receiver.h"
+#include "passes/map_taps.h"
 #include "passes/random_image.h"
 
 namespace kagefude {
@@ -138,10 +138,37 @@ TEST(Pcf, ThePlaneDoesNotLeakThroughABlocker) {
 TEST(Pcf, TexelsPerUnitAtTheReceiver) {
   const Floats depth(64, 64, 10.0f);
   const ShadowMap map{depth, lightFromWorld(), perspective()};
-  const auto r = receiveOnMap(map, V3f(0, 0, 0), V3f(0, 0, 1));
-  ASSERT_TRUE(r);
-  EXPECT_FLOAT_EQ(r->depth, 10);
-  EXPECT_FLOAT_EQ(r->texelsPerUnit, 3.2f) << "64 texels over 20 units at depth 10";
+  Receivers r(1, 0, 0);
+  r.position.set(0, 0, V3f(0, 0, 0));
+  MapReceivers found;
+  MapProjector(map).receive(r.position, r.normal, r.labels, 0, 0, 1, found);
+  EXPECT_EQ(found.visibility[0], MapReceivers::open);
+  EXPECT_FLOAT_EQ(found.depth[0], 10);
+  EXPECT_FLOAT_EQ(found.texelsPerUnit[0], 3.2f) << "64 texels over 20 units at depth 10";
+}
+
+TEST(MapReceivers, SlopesFollowThePlaneOverTheMap) {
+  // The plane's depth at another of its points must be what the slopes say; off-axis too.
+  for (const bool inPerspective : {false, true}) {
+    Transform clip = inPerspective ? perspective() : orthographic(9);
+    if (inPerspective) clip.m[0][2] = 0.3;
+    const Floats depth(64, 48, 10.0f);
+    const ShadowMap map{depth, lightFromWorld(), clip};
+    const V3f n = V3f(0.3f, -0.5f, 0.8f), along = n.cross(V3f(1, 2, 0)) * 0.3f;
+    Vec3Plane position(2, 1), normal(2, 1);
+    for (int i = 0; i < 2; ++i) {
+      position.set(i, 0, V3f(0.5f, -1, 0.25f) + along * static_cast<float>(i));
+      normal.set(i, 0, n);
+    }
+    MapReceivers r;
+    const Labels labels(2, 1, 1u);
+    MapProjector(map).receive(position, normal, labels, 0, 0, 2, r);
+    const float du = r.u[1] - r.u[0], dv = r.v[1] - r.v[0];
+    const float planes =
+        inPerspective ? r.planeDepth<true>(0, du, dv, 1) : r.planeDepth<false>(0, du, dv, 1);
+    EXPECT_NEAR(planes, r.depth[1], 1e-4f);
+    EXPECT_GT(std::fabs(r.depth[1] - r.depth[0]), 0.1f) << "the points must differ in depth";
+  }
 }
 
 TEST(Pcf, OutsideTheMapBehindTheLightAndBackgroundAreLit) {
@@ -219,19 +246,31 @@ TEST(Pcf, ThePyramidChangesNoBitAndThreadsChangeNone) {
     }
 }
 
-TEST(DepthPyramid, BoundsEveryRectangle) {
+TEST(DepthPyramid, TwoNodesInEachDirectionBoundEveryRun) {
   const Floats depth = test::randomFloats(37, 22, 8);
   const DepthPyramid pyramid(depth);
-  for (int y0 = -2; y0 < 22; y0 += 3)
-    for (int x0 = -2; x0 < 37; x0 += 2)
-      for (int side = 0; side < 40; side += 5) {
-        const DepthRange range = pyramid.range(x0, y0, x0 + side, y0 + side);
-        for (int y = std::max(y0, 0); y <= std::min(y0 + side, 21); ++y)
-          for (int x = std::max(x0, 0); x <= std::min(x0 + side, 36); ++x) {
-            ASSERT_LE(range.nearest, depth(x, y));
-            ASSERT_GE(range.farthest, depth(x, y));
+  for (int side = 1; side < 60; side += 3) {
+    const DepthPyramid::Level level = pyramid.levelFor(side);
+    for (int y0 = 0; y0 < 22; y0 += 3)
+      for (int x0 = 0; x0 < 37; x0 += 2) {
+        const int x1 = std::min(x0 + side - 1, 36), y1 = std::min(y0 + side - 1, 21);
+        ASSERT_LE((x1 >> level.shift) - (x0 >> level.shift), 1);
+        for (int y = y0; y <= y1; ++y)
+          for (int x = x0; x <= x1; ++x) {
+            ASSERT_LE(level.nearest(x >> level.shift, y >> level.shift), depth(x, y));
+            ASSERT_GE(level.farthest(x >> level.shift, y >> level.shift), depth(x, y));
           }
       }
+  }
+  EXPECT_EQ(pyramid.whole().nearest, *std::min_element(depth.row(0), depth.row(22)));
+}
+
+TEST(DepthPyramid, NanCountsAsInfinitelyFar) {
+  Floats depth(3, 1, 2.0f);
+  depth(1, 0) = std::numeric_limits<float>::quiet_NaN();
+  const DepthRange whole = DepthPyramid(depth).whole();
+  EXPECT_EQ(whole.nearest, 2.0f);
+  EXPECT_EQ(whole.farthest, std::numeric_limits<float>::infinity());
 }
 
 TEST(Pcf, RefusesPlanesOfOtherSizesAndAnEmptyMap) {

@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <fstream>
+
+#include "image/plane.h"
+
+namespace kagefude {
+namespace {
+
+#ifndef __SANITIZE_ADDRESS__
+
+constexpr size_t mebi = size_t{1} << 20;
+
+size_t residentBytes() {
+  size_t all = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return resident * static_cast<size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// A plane of that many mebibytes, every page of it touched.
+Bytes touched(int size) { return Bytes(1024, 1024 * size, uint8_t{1}); }
+
+TEST(PlaneMemory, ALargePlanesMemoryGoesToTheNextOfItsSize) {
+  const uint8_t* first = nullptr;
+  {
+    const Bytes plane(3000, 3000);
+    first = plane.row(0);
+  }
+  const Bytes other(4000, 3000), same(3000, 3000);
+  EXPECT_EQ(same.row(0), first);
+  EXPECT_NE(other.row(0), first);
+}
+
+TEST(PlaneMemory, WhatIsKeptNeverAddsToTheMostThatWasUsed) {
+  const size_t before = residentBytes();
+  { const Bytes plane = touched(200); }
+  {
+    const Bytes plane = touched(230);
+    EXPECT_LT(residentBytes(), before + 250 * mebi) << "the 200 MiB must not be kept beside these";
+  }
+  const Bytes a = touched(100), b = touched(120);
+  EXPECT_LT(residentBytes(), before + 250 * mebi);
+}
+
+TEST(PlaneMemory, APlaneMovesWithItsMemory) {
+  Bytes plane(3000, 3000, uint8_t{7});
+  const uint8_t* const pixels = plane.row(0);
+  Bytes moved = std::move(plane);
+  Bytes assigned(10, 10);
+  assigned = std::move(moved);
+  EXPECT_EQ(assigned.row(0), pixels);
+  EXPECT_EQ(assigned(2999, 2999), 7);
+}
+
+#endif
+
+TEST(PlaneMemory, PlanesStartOnALineAndMayBeReadBehindTheirEnd) {
+  for (const int side : {1, 17, 63, 2500}) {
+    const Floats plane(side, side, 0.0f);
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(plane.row(0)) % 64, 0u) << side;
+    volatile float behind = plane.row(side)[15];
+    static_cast<void>(behind);
+  }
+}
+
+}  // namespace
+}  // namespace kagefude
