@@ -17,7 +17,7 @@ namespace kagefude {
 namespace {
 
 constexpr int spheres = 20, masks = 9;
-constexpr float lightRadius = 0.5f, tangent = 0.36f;  // of half the camera's vertical angle
+constexpr float lightRadius = 1.2f, tangent = 0.36f;  // of half the camera's vertical angle
 
 const V3f cameraPlace(0, -15, 8), lightPlace(-5, -4, 9);
 
