@@ -184,16 +184,17 @@ TEST(LightShape, SameBitsForAnyNumberOfThreads) {
 
 TEST(MaskDistance, EqualsTheNaiveSearchWithinLabels) {
   constexpr int size = 24;
-  Bytes mask(size, size), wanted(size, size, uint8_t{1});
+  Bytes mask(size, size), kinds(size, size);
   Labels labels(size, size);
   std::mt19937 random(5);
   for (int i = 0; i < size * size; ++i) {
     mask.view().data[i] = random() % 5 != 0;
     labels.view().data[i] = random() % 3;
   }
-  for (int i = 0; i < size * size; ++i) wanted.view().data[i] = labels.view().data[i] != 0;
+  for (int i = 0; i < size * size; ++i) kinds.view().data[i] = labels.view().data[i] != 0;
+  const PixelSet wanted(kinds, 1, 1);
   const std::vector<View<const uint8_t>> masks{mask};
-  const std::vector<Distances> found = maskDistances(masks, wanted, labels);
+  const Distances found = maskDistances(masks, wanted, labels);
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       if (labels(x, y) == 0) continue;
@@ -203,7 +204,7 @@ TEST(MaskDistance, EqualsTheNaiveSearchWithinLabels) {
           if (labels(u, v) == labels(x, y) && mask(u, v) != mask(x, y))
             nearest = std::min(nearest, std::hypot(u - x, v - y));
       const double sign = mask(x, y) ? 1 : -1;
-      EXPECT_NEAR(found[0](x, y) * distanceUnit, sign * (nearest - 0.5), 1.0 / 16);
+      EXPECT_NEAR(found(static_cast<int>(wanted.indexOf(x, y)), 0) * distanceUnit, sign * (nearest - 0.5), 1.0 / 16);
     }
 }
 
