@@ -13,7 +13,6 @@
 namespace kagefude {
 namespace {
 
-constexpr size_t mostMasks = 64;
 constexpr int bandRows = 32;
 constexpr auto background = static_cast<uint8_t>(ShadowClass::background);
 constexpr auto penumbra = static_cast<uint8_t>(ShadowClass::penumbra);
@@ -28,9 +27,9 @@ void requireInputs(std::span<const View<const uint8_t>> masks, std::span<const V
     throw InputError(fmt::format(
         "a light's shape needs 2 to {} shadow masks, not {}; export it with --masks disc:9",
         mostMasks, masks.size()));
-  if (!placesOnLine(places) && masks.size() != 5 && masks.size() != 9)
+  if (!placesOnLine(places) && masks.size() < 5)
     throw InputError(fmt::format(
-        "a disc light needs 5 or 9 shadow masks, its centre and a ring, not {}; export it with "
+        "a disc light needs 5 or more shadow masks, its centre and a ring, not {}; export it with "
         "--masks disc:9",
         masks.size()));
   for (const View<const uint8_t>& mask : masks)

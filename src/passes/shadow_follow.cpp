@@ -8,7 +8,9 @@ namespace {
 constexpr int placesToAverage = 72;
 constexpr float trusted = 0.02f;     ///< mean disagreement up to which a match is trusted fully
 constexpr float distrusted = 0.07f;  ///< and from which on not at all
-constexpr float shortest = 4.0f;     ///< shift in pixels from which on answers are interpolated
+// Shifts in pixels from which on answers are interpolated between every second, and every fourth,
+// pixel: they are means over discs of that radius.
+constexpr float shortest = 4.0f, wide = 16.0f;
 
 }  // namespace
 
@@ -16,7 +18,7 @@ ShadowFollow::ShadowFollow(std::span<const View<const uint8_t>> masks, std::span
                            const Distances& distances, const PixelSet& edges,
                            View<const uint32_t> labels, Vec3View position, Vec3View normal,
                            const LightGeometry& geometry, float radius)
-    : taps_(masks, labels, normal),
+    : taps_(masks, places, labels, normal),
       need_(taps_, distances, edges, places),
       match_(taps_, need_, edges, places, position, normal, geometry),
       places_(placesBetween(places, placesToAverage, radius)),
@@ -42,9 +44,31 @@ ShadowFollow::Band::Band(const ShadowFollow& follow, int y0, int y1)
   const View<const uint32_t> labels = follow.taps_.labels();
   const int rows = std::min(y1 / 2 + 1, (labels.height + 1) / 2) - firstRow_;
   sparse_ = Plane<Answer>((labels.width + 1) / 2, rows);
-  for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < sparse_.width(); ++x)
+  for (int y = 0; y < rows; y += 2)
+    for (int x = 0; x < sparse_.width(); x += 2)
       sparse_(x, y) = follow.measured(2 * x, 2 * (firstRow_ + y));
+  for (int y = 0; y < rows; ++y)
+    for (int x = 1 - (y & 1); x < sparse_.width(); x += 2 - (y & 1))
+      sparse_(x, y) = betweenWide(x, y);
+}
+
+ShadowFollow::Answer ShadowFollow::Band::betweenWide(int i, int j) const {
+  const int x = 2 * i, y = 2 * (firstRow_ + j);
+  if (!mayAnswer(x, y)) return {};
+  const View<const uint32_t> labels = follow_.taps_.labels();
+  Answer sum{0, 0, wide};
+  float count = 0;
+  for (int v = j & ~1; v <= j + (j & 1); v += 2)
+    for (int u = i & ~1; u <= i + (i & 1); u += 2) {
+      if (u >= sparse_.width() || v >= sparse_.height()) return follow_.measured(x, y);
+      const Answer& a = sparse_(u, v);
+      const bool same = labels(2 * u, 2 * (firstRow_ + v)) == labels(x, y);
+      if (!same || !(a.trust > 0) || a.shift < wide) return follow_.measured(x, y);
+      sum.visibility += a.trust * a.visibility;
+      sum.trust += a.trust;
+      count += 1;
+    }
+  return {sum.visibility / sum.trust, sum.trust / count, sum.shift};
 }
 
 ShadowFollow::Answer ShadowFollow::Band::between(int x, int y) const {

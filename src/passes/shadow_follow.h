@@ -40,10 +40,10 @@ class ShadowFollow {
   };
 
   /// Answers in a band of rows. In large frames those of every other pixel in every other row are
-  /// made first, and the rest interpolated.
+  /// made first, where shifts are wide those of every fourth, and the rest interpolated.
   class Band {
    public:
-    /// Rows [y0, y1); y0 even.
+    /// Rows [y0, y1); y0 a multiple of 4, y1 too or the frame's end.
     Band(const ShadowFollow& follow, int y0, int y1);
 
     /// False when no pixel of the row's run that holds x can have an answer.
@@ -55,6 +55,9 @@ class ShadowFollow {
     }
 
    private:
+    /// For column i and row j of the sparse answers: interpolated among those at even ones where
+    /// all of them are trusted and shift far, else measured.
+    Answer betweenWide(int i, int j) const;
     /// Interpolated among those of the same label, but measured where shifts are so short that this
     /// would blur.
     Answer between(int x, int y) const;

@@ -20,7 +20,6 @@ ShadowMatch::ShadowMatch(const ShadowTaps& taps, const ShadowNeed& need, const P
                          const LightGeometry& geometry)
     : taps_(taps),
       need_(need),
-      masks_(places),
       position_(position),
       normal_(normal),
       geometry_(geometry),
@@ -94,7 +93,7 @@ void ShadowMatch::measureTile(int tx, int ty, const PixelSet& edges) {
         // Without the mismatch a shift that carries every tap past the shadow would agree with
         // itself.
         sums->cost[i] += (mean.valid ? mean.cost : 0.25f) +
-                         mismatchWeight * taps_.mismatch(masks_, x, y, along, length_[i]);
+                         mismatchWeight * taps_.mismatch(x, y, along, length_[i]);
       }
     }
 }
@@ -154,7 +153,8 @@ ShadowMatch::Match ShadowMatch::at(int x, int y) const {
   const uint32_t label = taps_.label(x, y);
   const float gx = (static_cast<float>(x) + 0.5f) / static_cast<float>(tile_) - 0.5f;
   const float gy = (static_cast<float>(y) + 0.5f) / static_cast<float>(tile_) - 0.5f;
-  const int x0 = static_cast<int>(std::floor(gx)), y0 = static_cast<int>(std::floor(gy));
+  // At least -0.5.
+  const int x0 = static_cast<int>(gx + 1) - 1, y0 = static_cast<int>(gy + 1) - 1;
   const float wx = gx - static_cast<float>(x0), wy = gy - static_cast<float>(y0);
   float lowest = 1;
   const Choice* near[4] = {};

@@ -63,7 +63,6 @@ class ShadowMatch {
 
   const ShadowTaps& taps_;
   const ShadowNeed& need_;
-  std::span<const V2f> masks_;  ///< their places
   Vec3View position_, normal_;
   const LightGeometry& geometry_;
   int tile_, tilesX_, tilesY_;

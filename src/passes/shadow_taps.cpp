@@ -19,12 +19,20 @@ constexpr uint32_t mixed = 0xffffffffu;
 /// Floor of a pixel coordinate not far outside the frame; std::floor is a call on plain x86-64.
 inline int floorOf(float v) { return static_cast<int>(v + 4096.0f) - 4096; }
 
-struct Source {
-  View<const uint32_t> labels, pixels;
-  uint32_t label, pixel;  ///< of the pixel looked from
-  float x, y;             ///< its centre
-  float ux, uy, vx, vy;   ///< pixels that a unit of place moves a tap
-};
+using Source = ShadowTaps::Source;
+
+ShadowTaps::Ring ringOf(std::span<const V2f> places) {
+  ShadowTaps::Ring ring;
+  for (size_t k = 1; k < places.size(); ++k)
+    for (const bool outward : {true, false}) {
+      const V2f move = outward ? places[k] : -places[k];
+      ring.x[ring.count] = move.x;
+      ring.y[ring.count] = move.y;
+      ring.from[ring.count] = static_cast<int32_t>(outward ? 0 : k);
+      ring.to[ring.count++] = static_cast<int32_t>(outward ? k : 0);
+    }
+  return ring;
+}
 
 struct Sums {
   float visibility, cost, count;
@@ -98,6 +106,28 @@ KAGEFUDE_CLONES void sumOnOneLabel(const Source& from, const ShadowPlaces& place
   sums = sumUp(weight, lit, places.count);
 }
 
+/// Of the ring's taps, how many count and how many of those do not show what they foretell.
+KAGEFUDE_CLONES void compareRing(const Source& from, const ShadowTaps::Ring& ring, int& wrong,
+                                 int& count) {
+  const int width = from.labels.width, height = from.labels.height;
+  const uint32_t *const labels = from.labels.data, *const pixels = from.pixels.data;
+  const uint32_t label = from.label, here = from.pixel;
+  const float x = from.x, y = from.y, ux = from.ux, uy = from.uy, vx = from.vx, vy = from.vy;
+  int counted = 0, differ = 0;
+  for (int i = 0; i < ring.count; ++i) {
+    const int qx = floorOf(x + ux * ring.x[i] + vx * ring.y[i]);
+    const int qy = floorOf(y + uy * ring.x[i] + vy * ring.y[i]);
+    const int cx = std::min(std::max(qx, 0), width - 1);
+    const int cy = std::min(std::max(qy, 0), height - 1);
+    const int at = cy * width + cx;
+    const int counts = (qx == cx) & (qy == cy) & (labels[at] == label);
+    counted += counts;
+    differ += counts & static_cast<int>((pixels[at] >> ring.from[i] ^ here >> ring.to[i]) & 1);
+  }
+  count = counted;
+  wrong = differ;
+}
+
 /// Octahedral, a byte each for u and v in the upper half; a normal of length 0 gives 0.
 KAGEFUDE_CLONES void packNormals(const float* nx, const float* ny, const float* nz, int count,
                                  uint32_t* out) {
@@ -131,9 +161,10 @@ uint32_t labelOf(View<const uint32_t> labels, int x0, int y0) {
 
 }  // namespace
 
-ShadowTaps::ShadowTaps(std::span<const View<const uint8_t>> masks, View<const uint32_t> labels,
-                       Vec3View normal)
+ShadowTaps::ShadowTaps(std::span<const View<const uint8_t>> masks, std::span<const V2f> places,
+                       View<const uint32_t> labels, Vec3View normal)
     : labels_(labels),
+      ring_(ringOf(places)),
       all_((uint32_t{1} << masks.size()) - 1),
       pixels_(labels.width, labels.height),
       blocksX_((labels.width + block - 1) / block),
@@ -181,18 +212,22 @@ void ShadowTaps::findUniform() {
     for (int x = blocksX_ - 1; x >= 0; --x) lower(x, y, -1);
 }
 
+ShadowTaps::Source ShadowTaps::sourceAt(int x, int y, const ShadowShift& along, float shift) const {
+  return {labels_,
+          pixels_,
+          labels_(x, y),
+          pixels_(x, y),
+          static_cast<float>(x) + 0.5f,
+          static_cast<float>(y) + 0.5f,
+          -along.ux * shift,
+          -along.uy * shift,
+          -along.vx * shift,
+          -along.vy * shift};
+}
+
 ShadowTaps::Mean ShadowTaps::mean(const ShadowPlaces& places, int x, int y,
                                   const ShadowShift& along, float shift) const {
-  const Source from{labels_,
-                    pixels_,
-                    labels_(x, y),
-                    pixels_(x, y),
-                    static_cast<float>(x) + 0.5f,
-                    static_cast<float>(y) + 0.5f,
-                    -along.ux * shift,
-                    -along.uy * shift,
-                    -along.vx * shift,
-                    -along.vy * shift};
+  const Source from = sourceAt(x, y, along, shift);
   const int around = uniform_[static_cast<size_t>(y / block) * static_cast<size_t>(blocksX_) +
                               static_cast<size_t>(x / block)];
   Sums sums;
@@ -205,24 +240,11 @@ ShadowTaps::Mean ShadowTaps::mean(const ShadowPlaces& places, int x, int y,
   return {sums.visibility / sums.count, sums.cost / sums.count, true};
 }
 
-float ShadowTaps::mismatch(std::span<const V2f> places, int x, int y, const ShadowShift& along,
-                           float shift) const {
-  const uint32_t here = pixels_(x, y), label = labels_(x, y);
-  float wrong = 0, count = 0;
-  const auto check = [&](const V2f& move, size_t from, size_t to) {
-    const int qx =
-        floorOf(static_cast<float>(x) + 0.5f - shift * (along.ux * move.x + along.vx * move.y));
-    const int qy =
-        floorOf(static_cast<float>(y) + 0.5f - shift * (along.uy * move.x + along.vy * move.y));
-    if (!labels_.contains(qx, qy) || labels_(qx, qy) != label) return;
-    count += 1;
-    wrong += static_cast<float>((pixels_(qx, qy) >> from & 1) != (here >> to & 1));
-  };
-  for (size_t k = 1; k < places.size(); ++k) {
-    check(places[k], 0, k);
-    check(-places[k], k, 0);
-  }
-  return count > 0 ? wrong / count : 1.0f;
+float ShadowTaps::mismatch(int x, int y, const ShadowShift& along, float shift) const {
+  const Source from = sourceAt(x, y, along, shift);
+  int wrong = 0, count = 0;
+  compareRing(from, ring_, wrong, count);
+  return count > 0 ? static_cast<float>(wrong) / static_cast<float>(count) : 1.0f;
 }
 
 }  // namespace kagefude
