@@ -4,6 +4,7 @@
 
 #include "image/parallel.h"
 #include "passes/classes.h"
+#include "passes/horizon.h"
 #include "passes/light_share.h"
 #include "passes/mask_distance.h"
 #include "passes/require_size.h"
@@ -90,6 +91,7 @@ class PixelDistances {
       if (!known_[k]) s_[k] = s_[k] > 0 ? largest : -largest;
       s_[k] -= grow;
     }
+    farthest_ = largest + std::fabs(grow);
   }
 
   const float* values() const { return s_; }
@@ -97,6 +99,9 @@ class PixelDistances {
   /// Share of masks with an edge, each less where the frame's edge is nearer than the shadow's.
   float confidence(float toFrame) const {
     float sum = 0;
+    for (size_t k = 0; k < count_; ++k) sum += known_[k] ? 1.0f : 0.0f;
+    if (toFrame > farthest_) return sum / static_cast<float>(count_);
+    sum = 0;
     for (size_t k = 0; k < count_; ++k)
       if (known_[k]) sum += std::min(1.0f, toFrame / std::max(std::fabs(s_[k]), 0.5f));
     return sum / static_cast<float>(count_);
@@ -106,50 +111,12 @@ class PixelDistances {
   size_t count_;
   bool known_[mostMasks];
   float s_[mostMasks];
+  float farthest_;  ///< no distance is larger
 };
 
 float toFrameEdge(int x, int y, int width, int height) {
   return static_cast<float>(std::min({x, y, width - 1 - x, height - 1 - y})) + 0.5f;
 }
-
-/// The light over a receiver's own horizon: linear over the light, and known without distances.
-class Horizon {
- public:
-  Horizon(const LightGeometry& geometry, std::span<const V2f> places, Vec3View position,
-          Vec3View normal)
-      : geometry_(geometry), places_(places), position_(position), normal_(normal) {}
-
-  /// Heights of the masks' places; false when anything else decides what the masks see.
-  bool explains(std::span<const View<const uint8_t>> masks, int x, int y, float* height) const {
-    const V3f n = normal_(x, y);
-    const V3f towards = geometry_.sun ? -geometry_.direction : geometry_.position - position_(x, y);
-    const float middle = n.dot(towards), sign = geometry_.sun ? -1.0f : 1.0f;
-    const float u = sign * n.dot(geometry_.u), v = sign * n.dot(geometry_.v);
-    for (size_t k = 0; k < masks.size(); ++k) {
-      height[k] = middle + u * places_[k].x + v * places_[k].y;
-      if ((height[k] > 0) != (masks[k](x, y) != 0)) return false;
-    }
-    if (geometry_.sphere) turnToReceiver(n, towards, middle, std::span(height, masks.size()));
-    return true;
-  }
-
- private:
-  /// Heights of a disc of the same radius that faces the receiver, as a sphere is seen from there:
-  /// the masks' disc faces the subject, and over other receivers it stands less high.
-  void turnToReceiver(const V3f& n, const V3f& towards, float middle,
-                      std::span<float> height) const {
-    const float u = n.dot(geometry_.u), v = n.dot(geometry_.v);
-    const float sine2 = 1.0f - middle * middle / towards.dot(towards);
-    const float slope2 = u * u + v * v;
-    if (!(sine2 > 0) || !(slope2 > 0)) return;
-    const float stretch = std::sqrt(geometry_.u.dot(geometry_.u) * sine2 / slope2);
-    for (float& h : height) h = middle + (h - middle) * stretch;
-  }
-
-  const LightGeometry& geometry_;
-  std::span<const V2f> places_;
-  Vec3View position_, normal_;
-};
 
 struct Inputs {
   std::span<const View<const uint8_t>> masks;

@@ -40,6 +40,11 @@ float positiveShare(float a, float b) {
   return 0.0f;
 }
 
+float discShare(float distance) {
+  const float d = std::clamp(distance, -1.0f, 1.0f);
+  return std::clamp(0.5f + (d * std::sqrt(1.0f - d * d) + arcSine(d)) / pi, 0.0f, 1.0f);
+}
+
 bool placesOnLine(std::span<const V2f> places) {
   return std::all_of(places.begin(), places.end(), [](const V2f& p) { return p.y == 0.0f; });
 }
@@ -118,8 +123,7 @@ float LightShare::ofPlane(const float* s) const {
   mean /= count;
   const float slope = std::sqrt(u * u + v * v) / moment_ * radius_;
   if (!(slope > 1e-6f)) return (radius_ > 0 ? mean : s[0]) > 0 ? 1.0f : 0.0f;
-  const float d = std::clamp(mean / slope, -1.0f, 1.0f);
-  return std::clamp(0.5f + (d * std::sqrt(1.0f - d * d) + arcSine(d)) / pi, 0.0f, 1.0f);
+  return discShare(mean / slope);
 }
 
 float LightShare::ofWedges(const float* s) const {

@@ -16,6 +16,9 @@ float positiveShare(float a, float b);
 
 inline constexpr size_t mostMasks = 65;  ///< of one light
 
+/// Share of the unit disc on the positive side of a line at signed distance d from its centre.
+float discShare(float d);
+
 /// Turns signed distances at a light's masks into the share of the light with positive distance.
 class LightShare {
  public:

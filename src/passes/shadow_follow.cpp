@@ -7,7 +7,7 @@ namespace {
 
 constexpr int placesToAverage = 72;
 constexpr float trusted = 0.02f;     ///< mean disagreement up to which a match is trusted fully
-constexpr float distrusted = 0.07f;  ///< and from which on not at all
+constexpr float distrusted = 0.11f;  ///< and from which on not at all
 // Shifts in pixels from which on answers are interpolated between every second, and every fourth,
 // pixel: they are means over discs of that radius.
 constexpr float shortest = 4.0f, wide = 16.0f;

@@ -8,7 +8,7 @@
 namespace kagefude {
 namespace {
 
-constexpr int placesToMatch = 40;
+constexpr int placesToMatch = 24;
 constexpr float mismatchWeight = 0.1f;
 constexpr float softness = 0.005f;  ///< disagreement that halves a tile's say, about
 constexpr int largeFrame = 1200;    ///< rows from which on tiles are larger
