@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from .errors import UsageError, nearest
 from .frame_ranges import parse_frames
 
-DISC_RINGS = {5: 4, 9: 8}
+DISC_MASKS = (5, 9, 17, 33, 65)
 MOST_LINE_MASKS = 64
 
 
@@ -37,18 +37,19 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parse_masks(text):
-    """`pair`, `line:K` with K from 2 to 64, `disc:5` or `disc:9`."""
+    """`pair`, `line:K` with K from 2 to 64, `disc:K` with K of DISC_MASKS."""
     kind, _, number = text.partition(":")
     if text == "pair":
         return Arrangement("pair", 2)
-    if kind == "disc" and number in ("5", "9"):
+    if kind == "disc" and number in map(str, DISC_MASKS):
         return Arrangement("disc", int(number))
     if kind == "line" and number.isascii() and number.isdigit() \
             and 2 <= int(number) <= MOST_LINE_MASKS:
         return Arrangement("line", int(number))
-    known = ("pair", "line:5", "disc:5", "disc:9")
+    discs = [f"disc:{count}" for count in DISC_MASKS]
     raise UsageError(f"'{text}' is not an arrangement of masks (pair, line:2 to "
-                     f"line:{MOST_LINE_MASKS}, disc:5, disc:9){nearest(text, known)}")
+                     f"line:{MOST_LINE_MASKS}, {', '.join(discs)})"
+                     f"{nearest(text, ['pair', 'line:5', *discs])}")
 
 
 def parse_offset(text):
@@ -86,7 +87,8 @@ def build_parser():
                         help="a light to export, may be repeated (default: every light that "
                              "renders and casts shadows)")
     parser.add_argument("--masks", type=parse_masks, default=Arrangement(), metavar="HOW",
-                        help="pair, line:K, disc:5 or disc:9 (default: disc:9)")
+                        help="pair, line:K, or disc:K with K 5, 9, 17, 33 or 65 (default: disc:9); "
+                             "thin shadows of wide lights need the larger discs")
     parser.add_argument("--offset", type=parse_offset, default=None, metavar="L",
                         help="distance of the outermost masks from the light's centre in world "
                              "units, for a sun the tangent of the angle, or auto: from the "

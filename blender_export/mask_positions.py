@@ -11,7 +11,6 @@ import math
 from dataclasses import dataclass
 
 from . import vectors
-from .arguments import DISC_RINGS
 
 
 @dataclass
@@ -72,7 +71,16 @@ def _line(count):
     return [(2.0 * number / (count - 1) - 1.0, 0.0) for number in range(count)]
 
 
+# Radius and turn of the groups of eight that follow the centre: each fills the widest gaps that
+# those before it leave, so that larger discs contain smaller ones.
+_GROUPS = ((1.0, 0.0), (0.5, 0.5), (1.0, 0.5), (0.75, 0.0), (0.25, 0.0), (0.75, 0.5), (1.0, 0.25),
+           (1.0, 0.75))
+
+
 def _disc(count):
-    ring = DISC_RINGS[count]
-    angles = [2.0 * math.pi * number / ring for number in range(ring)]
-    return [(0.0, 0.0)] + [(math.cos(angle), math.sin(angle)) for angle in angles]
+    places = [(0.0, 0.0)]
+    for radius, turn in _GROUPS:
+        size = min(8, count - len(places))
+        angles = [2.0 * math.pi * (number + turn) / size for number in range(size)]
+        places += [(radius * math.cos(angle), radius * math.sin(angle)) for angle in angles]
+    return places

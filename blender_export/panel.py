@@ -16,6 +16,8 @@ class KagefudeSettings(bpy.types.PropertyGroup):
     masks: EnumProperty(
         name="Masks", default='disc:9', description="Where on the light the shadow masks lie",
         items=(('disc:9', "Disc of 9", "Centre and ring of eight: the best soft shadows"),
+               ('disc:17', "Disc of 17", "For shadows thinner than their shift from mask to mask"),
+               ('disc:33', "Disc of 33", "For wires and twigs before a wide light"),
                ('disc:5', "Disc of 5", "Centre and ring of four"),
                ('line', "Line", "Along a tube light, or across the view of the subject"),
                ('pair', "Pair", "Two on the axis to the subject; not for suns")))

@@ -9,6 +9,7 @@
 #include "frame/casters.h"
 #include "frame/strip_file.h"
 #include "image/parallel.h"
+#include "passes/disc_places.h"
 
 namespace kagefude {
 namespace {
@@ -30,17 +31,6 @@ void acrossLight(const FrameLight& light, V3f& u, V3f& v) {
   const V3f helper = std::fabs(axis.z) < 0.9f ? V3f(0, 0, 1) : V3f(1, 0, 0);
   u = helper.cross(axis).normalized();
   v = axis.cross(u);
-}
-
-/// The centre and a ring, as the exporter's discs have them.
-std::vector<V2f> discPlaces(int count) {
-  std::vector<V2f> places{{0, 0}};
-  const int ring = count - 1;
-  for (int i = 0; i < ring; ++i) {
-    const double angle = 2 * M_PI * i / ring;
-    places.emplace_back(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
-  }
-  return places;
 }
 
 uint32_t idOf(const FramePlan& plan, const std::string& name) {

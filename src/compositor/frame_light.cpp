@@ -47,6 +47,14 @@ std::optional<LightGeometry> geometryOf(const SidecarLight& source) {
       toFloat(source.axisV * offset), round && source.masks->arrangement == MaskArrangement::disc};
 }
 
+/// From a round light's centre to the farther mask of a pair; nothing for other lights.
+V3f towardsFarMask(const SidecarLight& source) {
+  const bool round = source.type == LightType::point || source.type == LightType::spot;
+  if (!round || !source.masks || source.masks->arrangement != MaskArrangement::pair)
+    return V3f(0, 0, 0);
+  return toFloat(source.axisU * source.masks->offset);
+}
+
 /// Irradiance at the subject up to a constant: how much this light shapes the tone.
 float weightOf(const SidecarLight& light) {
   const double luminance =
@@ -123,6 +131,7 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, bool hasCas
     light.depthMap = {source.depthMap->file, source.depthMap->channel,
                       source.depthMap->lightFromWorld, source.depthMap->clipFromLight};
   light.geometry = geometryOf(source);
+  light.towardsFar = towardsFarMask(source);
   if (needsMasks(light.method) && source.masks)
     for (const MaskSample& sample : source.masks->samples) {
       light.maskChannels.push_back(sample.layer);

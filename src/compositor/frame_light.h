@@ -34,6 +34,7 @@ struct FrameLight {
   std::vector<std::string> maskChannels;  ///< of the masks that the method needs
   std::vector<V2f> places;                ///< of the same masks on the light, in radii
   std::optional<LightGeometry> geometry;  ///< what moves the light from mask to mask
+  V3f towardsFar{0, 0, 0};                ///< a pair's farther mask, from the light's centre
   std::optional<DepthMapSource> depthMap;
   int castPlaces = 0;          ///< method places: masks that are cut from the casters
   std::string receiver;        ///< methods planar and blob

@@ -4,6 +4,7 @@
 
 #include "compositor/caster_visibility.h"
 #include "passes/classes.h"
+#include "passes/horizon.h"
 #include "passes/light_shape.h"
 #include "passes/pair_search.h"
 #include "passes/pcf.h"
@@ -51,6 +52,19 @@ Floats fromDepth(const FrameLight& light, const LightPlanes& planes, const Frame
                         light.passes.pcss);
 }
 
+Floats fromPair(const FrameLight& light, const LightPlanes& planes, const FramePlanes& frame,
+                View<const uint32_t> surfaces) {
+  const PairParams& params = light.passes.pair;
+  const View<const uint32_t> labels = boundBy(params.bound, frame, surfaces);
+  const Bytes &farMask = planes.masks.at(0), &nearMask = planes.masks.at(1);
+  Floats raw = pairVisibility(farMask, nearMask, labels, params);
+  const PairLight shape{light.light.position, light.towardsFar, light.light.radius};
+  if (params.horizon && light.towardsFar.length2() > 0 && !frame.position.empty() &&
+      !frame.normal.empty())
+    settleAtHorizon(farMask, nearMask, labels, frame.position, frame.normal, shape, raw);
+  return raw;
+}
+
 /// The light's disc from masks that are cut from the casters instead of rendered.
 LightVisibility fromPlaces(const FrameLight& light, const FramePlanes& frame,
                            View<const uint32_t> surfaces) {
@@ -66,12 +80,10 @@ LightVisibility measured(const FrameLight& light, const FramePlan& plan, const L
                          const FramePlanes& frame, View<const uint32_t> surfaces) {
   const auto sure = [&] { return Floats(frame.width, frame.height, 1.0f); };
   switch (light.method) {
-    case ShadowMethod::pair: {
-      const PairParams& params = light.passes.pair;
-      const View<const uint32_t> labels = boundBy(params.bound, frame, surfaces);
-      const Floats raw = pairVisibility(planes.masks.at(0), planes.masks.at(1), labels, params);
-      return {smoothWithinSurfaces(raw, surfaces, light.passes.smooth), sure()};
-    }
+    case ShadowMethod::pair:
+      return {smoothWithinSurfaces(fromPair(light, planes, frame, surfaces), surfaces,
+                                   light.passes.smooth),
+              sure()};
     case ShadowMethod::line:
     case ShadowMethod::disc:
       return fromShape(light, planes, frame, surfaces);

@@ -4,6 +4,7 @@
 
 #include "image/parallel.h"
 #include "passes/classes.h"
+#include "passes/horizon.h"
 #include "passes/light_share.h"
 #include "passes/mask_distance.h"
 #include "passes/require_size.h"
@@ -13,7 +14,8 @@
 namespace kagefude {
 namespace {
 
-constexpr size_t mostMasks = 64;
+constexpr int bandRows = 32;
+constexpr auto background = static_cast<uint8_t>(ShadowClass::background);
 constexpr auto penumbra = static_cast<uint8_t>(ShadowClass::penumbra);
 constexpr auto umbra = static_cast<uint8_t>(ShadowClass::umbra);
 
@@ -26,9 +28,9 @@ void requireInputs(std::span<const View<const uint8_t>> masks, std::span<const V
     throw InputError(fmt::format(
         "a light's shape needs 2 to {} shadow masks, not {}; export it with --masks disc:9",
         mostMasks, masks.size()));
-  if (!placesOnLine(places) && masks.size() != 5 && masks.size() != 9)
+  if (!placesOnLine(places) && masks.size() < 5)
     throw InputError(fmt::format(
-        "a disc light needs 5 or 9 shadow masks, its centre and a ring, not {}; export it with "
+        "a disc light needs 5 or more shadow masks, its centre and a ring, not {}; export it with "
         "--masks disc:9",
         masks.size()));
   for (const View<const uint8_t>& mask : masks)
@@ -37,38 +39,49 @@ void requireInputs(std::span<const View<const uint8_t>> masks, std::span<const V
 
 bool hasStyle(const LightShapeParams& p) { return p.grow != 0 || p.soften > 0 || p.abstract > 0; }
 
-/// 1 where distances are wanted: where masks disagree, or with a style, wherever a surface is.
-Bytes wantedPixels(View<const uint8_t> classes, bool everywhere) {
-  Bytes wanted(classes.width, classes.height);
-  parallelRows(classes.height, [&](int y0, int y1) {
+/// Where distances are wanted: where masks disagree, or with a style, wherever a surface is.
+PixelSet wantedPixels(View<const uint8_t> classes, bool everywhere) {
+  constexpr auto lit = static_cast<uint8_t>(ShadowClass::lit);
+  return everywhere ? PixelSet(classes, umbra, lit) : PixelSet(classes, penumbra, penumbra);
+}
+
+/// Labels for searches that are bound by nothing: only background is told apart.
+Labels onlySurfaces(View<const uint32_t> labels) {
+  Labels result(labels.width, labels.height);
+  parallelRows(labels.height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)
-      for (int x = 0; x < classes.width; ++x)
-        wanted(x, y) = everywhere ? classes(x, y) != 0 : classes(x, y) == penumbra;
+      for (int x = 0; x < labels.width; ++x) result(x, y) = labels(x, y) != 0;
   });
-  return wanted;
+  return result;
 }
 
 /// Contours simplified: every distance becomes its mean over a window of the label.
-void simplify(std::vector<Distances>& distances, View<const uint32_t> labels, int reach) {
+void simplify(Distances& distances, const PixelSet& wanted, View<const uint32_t> labels,
+              int reach) {
   const SmoothParams window{reach};
-  Floats plane(labels.width, labels.height);
-  for (Distances& d : distances) {
-    const size_t pixels = labels.pixels();
-    for (size_t i = 0; i < pixels; ++i) plane.view().data[i] = d.view().data[i];
+  Floats plane(labels.width, labels.height, 0.0f);
+  const auto eachPixel = [&](int16_t* of, const auto& visit) {
+    for (int y = 0; y < labels.height; ++y)
+      for (int x = 0; x < labels.width; ++x)
+        if (wanted.contains(x, y)) visit(x, y, *of++);
+  };
+  for (int k = 0; k < distances.height(); ++k) {
+    eachPixel(distances.row(k), [&](int x, int y, int16_t& d) { plane(x, y) = d; });
     const Floats mean = smoothWithinSurfaces(plane, labels, window);
-    for (size_t i = 0; i < pixels; ++i)
-      d.view().data[i] = static_cast<int16_t>(std::floor(mean.view().data[i] + 0.5f));
+    eachPixel(distances.row(k), [&](int x, int y, int16_t& d) {
+      d = static_cast<int16_t>(std::floor(mean(x, y) + 0.5f));
+    });
   }
 }
 
 /// A pixel's distances, with stand-ins where a mask has no edge in the label.
 class PixelDistances {
  public:
-  PixelDistances(const std::vector<Distances>& planes, int x, int y, float grow)
-      : count_(planes.size()) {
+  PixelDistances(const Distances& distances, uint32_t number, float grow)
+      : count_(static_cast<size_t>(distances.height())) {
     float largest = 0;
     for (size_t k = 0; k < count_; ++k) {
-      const int16_t d = planes[k](x, y);
+      const int16_t d = distances.row(static_cast<int>(k))[number];
       known_[k] = d != farLit && d != farDark;
       s_[k] = static_cast<float>(d) * distanceUnit;
       if (known_[k]) largest = std::max(largest, std::fabs(s_[k]));
@@ -78,6 +91,7 @@ class PixelDistances {
       if (!known_[k]) s_[k] = s_[k] > 0 ? largest : -largest;
       s_[k] -= grow;
     }
+    farthest_ = largest + std::fabs(grow);
   }
 
   const float* values() const { return s_; }
@@ -85,6 +99,9 @@ class PixelDistances {
   /// Share of masks with an edge, each less where the frame's edge is nearer than the shadow's.
   float confidence(float toFrame) const {
     float sum = 0;
+    for (size_t k = 0; k < count_; ++k) sum += known_[k] ? 1.0f : 0.0f;
+    if (toFrame > farthest_) return sum / static_cast<float>(count_);
+    sum = 0;
     for (size_t k = 0; k < count_; ++k)
       if (known_[k]) sum += std::min(1.0f, toFrame / std::max(std::fabs(s_[k]), 0.5f));
     return sum / static_cast<float>(count_);
@@ -94,56 +111,19 @@ class PixelDistances {
   size_t count_;
   bool known_[mostMasks];
   float s_[mostMasks];
+  float farthest_;  ///< no distance is larger
 };
 
 float toFrameEdge(int x, int y, int width, int height) {
   return static_cast<float>(std::min({x, y, width - 1 - x, height - 1 - y})) + 0.5f;
 }
 
-/// The light over a receiver's own horizon: linear over the light, and known without distances.
-class Horizon {
- public:
-  Horizon(const LightGeometry& geometry, std::span<const V2f> places, Vec3View position,
-          Vec3View normal)
-      : geometry_(geometry), places_(places), position_(position), normal_(normal) {}
-
-  /// Heights of the masks' places; false when anything else decides what the masks see.
-  bool explains(std::span<const View<const uint8_t>> masks, int x, int y, float* height) const {
-    const V3f n = normal_(x, y);
-    const V3f towards = geometry_.sun ? -geometry_.direction : geometry_.position - position_(x, y);
-    const float middle = n.dot(towards), sign = geometry_.sun ? -1.0f : 1.0f;
-    const float u = sign * n.dot(geometry_.u), v = sign * n.dot(geometry_.v);
-    for (size_t k = 0; k < masks.size(); ++k) {
-      height[k] = middle + u * places_[k].x + v * places_[k].y;
-      if ((height[k] > 0) != (masks[k](x, y) != 0)) return false;
-    }
-    if (geometry_.sphere) turnToReceiver(n, towards, middle, std::span(height, masks.size()));
-    return true;
-  }
-
- private:
-  /// Heights of a disc of the same radius that faces the receiver, as a sphere is seen from there:
-  /// the masks' disc faces the subject, and over other receivers it stands less high.
-  void turnToReceiver(const V3f& n, const V3f& towards, float middle,
-                      std::span<float> height) const {
-    const float u = n.dot(geometry_.u), v = n.dot(geometry_.v);
-    const float sine2 = 1.0f - middle * middle / towards.dot(towards);
-    const float slope2 = u * u + v * v;
-    if (!(sine2 > 0) || !(slope2 > 0)) return;
-    const float stretch = std::sqrt(geometry_.u.dot(geometry_.u) * sine2 / slope2);
-    for (float& h : height) h = middle + (h - middle) * stretch;
-  }
-
-  const LightGeometry& geometry_;
-  std::span<const V2f> places_;
-  Vec3View position_, normal_;
-};
-
 struct Inputs {
   std::span<const View<const uint8_t>> masks;
-  View<const uint8_t> classes, wanted;
+  View<const uint8_t> classes;
+  const PixelSet& wanted;
   View<const uint32_t> labels;
-  const std::vector<Distances>& distances;
+  const Distances& distances;
   const LightShare& share;
   const LightShare& horizonShare;  ///< heights are linear over the light: by the closed form
   const ShadowFollow* follow;
@@ -151,33 +131,52 @@ struct Inputs {
   float grow;
 };
 
-void resolvePixel(const Inputs& in, int x, int y, float& visibility, float& confidence) {
+void resolvePixel(const Inputs& in, const ShadowFollow::Band* follow, int x, int y,
+                  float& visibility, float& confidence) {
   const uint8_t kind = in.classes(x, y);
-  visibility = kind == umbra ? 0.0f : 1.0f;
-  confidence = 1.0f;
-  if (in.labels(x, y) == 0) return;
+  if (kind == background) return;
   float height[mostMasks];
   if (in.horizon && kind == penumbra && in.horizon->explains(in.masks, x, y, height)) {
     visibility = in.horizonShare.of(height);
     return;
   }
-  if (in.wanted(x, y)) {
-    const PixelDistances s(in.distances, x, y, in.grow);
+  if (in.wanted.contains(x, y)) {
+    const PixelDistances s(in.distances, in.wanted.indexOf(x, y), in.grow);
     visibility = in.share.of(s.values());
-    confidence = s.confidence(toFrameEdge(x, y, in.wanted.width, in.wanted.height));
+    confidence = s.confidence(toFrameEdge(x, y, in.labels.width, in.labels.height));
   }
-  if (!in.follow) return;
-  const ShadowFollow::Answer answer = in.follow->at(x, y);
+  if (!follow || !follow->mayAnswer(x, y)) return;
+  const ShadowFollow::Answer answer = follow->at(x, y);
   visibility += answer.trust * (answer.visibility - visibility);
+}
+
+void resolveRows(const Inputs& in, int y0, int y1, LightShapeResult& result) {
+  std::optional<ShadowFollow::Band> band;
+  if (in.follow) band.emplace(*in.follow, y0, y1);
+  const ShadowFollow::Band* const follow = band ? &*band : nullptr;
+  const int width = in.labels.width;
+  for (int y = y0; y < y1; ++y) {
+    const uint8_t* const kinds = in.classes.row(y);
+    float *const visibility = result.visibility.row(y), *const confidence =
+                                                            result.confidence.row(y);
+    for (int x = 0; x < width; ++x) {
+      visibility[x] = kinds[x] == umbra ? 0.0f : 1.0f;
+      confidence[x] = 1.0f;
+    }
+    for (int from = 0; from < width; from += ShadowFollow::run) {
+      const int end = std::min(from + ShadowFollow::run, width);
+      const auto [first, last] = in.wanted.ends(from, end, y);
+      const bool all = follow && follow->mayAnswer(from, y);
+      for (int x = all ? from : first; x < (all ? end : last); ++x)
+        resolvePixel(in, follow, x, y, visibility[x], confidence[x]);
+    }
+  }
 }
 
 LightShapeResult resolve(const Inputs& in) {
   LightShapeResult result{{in.labels.width, in.labels.height}, {in.labels.width, in.labels.height}};
-  parallelRows(in.labels.height, 4, [&](int y0, int y1) {
-    for (int y = y0; y < y1; ++y)
-      for (int x = 0; x < in.labels.width; ++x)
-        resolvePixel(in, x, y, result.visibility(x, y), result.confidence(x, y));
-  });
+  parallelRows(in.labels.height, bandRows,
+               [&](int y0, int y1) { resolveRows(in, y0, y1, result); });
   return result;
 }
 
@@ -192,11 +191,10 @@ LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks
   const bool style = hasStyle(params), linear = params.disc == DiscIntegral::linear;
   const float radius = params.lightSize + params.soften;
   const Bytes classes = classifyShadow(masks, labels);
-  const Bytes wanted = wantedPixels(classes, style);
-  const View<const uint32_t> bound =
-      params.bound == SearchBound::none ? View<const uint32_t>{} : labels;
-  std::vector<Distances> distances = maskDistances(masks, wanted, bound);
-  if (params.abstract > 0) simplify(distances, labels, params.abstract);
+  const PixelSet wanted = wantedPixels(classes, style);
+  const Labels unbound = params.bound == SearchBound::none ? onlySurfaces(labels) : Labels{};
+  Distances distances = maskDistances(masks, wanted, unbound.empty() ? labels : unbound.view());
+  if (params.abstract > 0) simplify(distances, wanted, labels, params.abstract);
   std::optional<ShadowFollow> follow;
   std::optional<Horizon> horizon;
   if (params.follow && geometry && !position.empty() && !normal.empty() && !style) {
@@ -204,7 +202,7 @@ LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks
     requireSize("the normal pass", normal, labels.width, labels.height);
     horizon.emplace(*geometry, places, position, normal);
     if (!linear && !placesOnLine(places) && masks.size() <= ShadowFollow::mostMasks)
-      follow.emplace(masks, places, distances, labels, position, normal, *geometry, radius);
+      follow.emplace(masks, places, distances, wanted, labels, position, normal, *geometry, radius);
   }
   const LightShare share(places, linear, radius), horizonShare(places, true, radius);
   return resolve({masks, classes, wanted, labels, distances, share, horizonShare,

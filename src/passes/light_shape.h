@@ -67,7 +67,8 @@ struct LightShapeResult {
 /// from which the pixel is seen.
 ///
 /// masks: 0 = hidden from that place, else seen. places: of the masks, in radii; a disc has its
-/// centre first, then a ring of 4 or 8 in turning order; a line has v = 0 and rising u. labels:
+/// centre first, then a ring in turning order, which may be followed by masks anywhere in it
+/// (disc_places.h); a line has v = 0 and rising u. labels:
 /// 0 = background, visibility 1, confidence 1; object ids or surface labels, as `bound` asks.
 /// position, normal: world; used with `follow` only, and may then be empty, like `geometry`:
 /// shadows are then not followed.
@@ -75,10 +76,11 @@ struct LightShapeResult {
 /// For each mask the signed distance s to its shadow's edge within the label, in pixels, positive
 /// when lit, half a pixel short of the nearest pixel of the other kind. Where the light moves a
 /// little the edge moves a little, so s is interpolated over the light and the result is the share
-/// where it is positive: exact over each wedge of a disc (method.md section 4), over each piece of
-/// a line, or by the closed form for one plane through all masks (disc = linear).
-/// follow: a shadow thinner than its shift between neighbouring masks is missed by that. There the
-/// shift is found by matching the masks (see shadow_follow.h) and the masks are moved along it.
+/// where it is positive: exact over each wedge of a disc (method.md section 4) or each triangle
+/// between its masks (light_mesh.h), over each piece of a line, or by the closed form for one plane
+/// through all masks (disc = linear). follow: a shadow thinner than its shift between neighbouring
+/// masks is missed by that. There the shift is found by matching the masks (see shadow_follow.h)
+/// and the masks are moved along it.
 ///
 /// lightSize is continuous; 0 equals the hard mask of the centre (a line's: its middle).
 /// Degenerate: a mask without a pixel of the other kind in the label stands in with the largest

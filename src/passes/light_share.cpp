@@ -40,6 +40,11 @@ float positiveShare(float a, float b) {
   return 0.0f;
 }
 
+float discShare(float distance) {
+  const float d = std::clamp(distance, -1.0f, 1.0f);
+  return std::clamp(0.5f + (d * std::sqrt(1.0f - d * d) + arcSine(d)) / pi, 0.0f, 1.0f);
+}
+
 bool placesOnLine(std::span<const V2f> places) {
   return std::all_of(places.begin(), places.end(), [](const V2f& p) { return p.y == 0.0f; });
 }
@@ -48,11 +53,40 @@ LightShare::LightShare(std::span<const V2f> places, bool linear, float radius)
     : places_(places.begin(), places.end()),
       line_(placesOnLine(places)),
       linear_(linear),
-      radius_(radius) {}
+      radius_(radius) {
+  if (!line_ && !linear_ && !isRing()) buildMesh();
+  moment_ = 0.5f * static_cast<float>(places.size() - 1);
+  if (isRing()) return;
+  moment_ = 0;
+  for (const V2f& p : places_) moment_ += 0.5f * (p.x * p.x + p.y * p.y);
+}
+
+bool LightShare::isRing() const { return places_.size() == 5 || places_.size() == 9; }
+
+void LightShare::buildMesh() {
+  const LightMesh mesh(places_);
+  triangles_.assign(mesh.triangles().begin(), mesh.triangles().end());
+  for (LightMesh::Triangle& t : triangles_) t.area /= mesh.area();
+  // As the octagon below: the mesh grows until its area is the disc's.
+  const float reach = radius_ * std::sqrt(pi / mesh.area());
+  for (const V2f& place : places_) corners_.push_back(mesh.blendAt(place * reach));
+}
+
+float LightShare::ofMesh(const float* s) const {
+  float value[mostMasks], sum = 0.0f;
+  for (size_t i = 0; i < corners_.size(); ++i) {
+    const LightMesh::Blend& c = corners_[i];
+    value[i] = c.weight[0] * s[c.mask[0]] + c.weight[1] * s[c.mask[1]] + c.weight[2] * s[c.mask[2]];
+  }
+  for (const LightMesh::Triangle& t : triangles_)
+    sum += t.area * positiveShare(value[t.corner[0]], value[t.corner[1]], value[t.corner[2]]);
+  return std::clamp(sum, 0.0f, 1.0f);
+}
 
 float LightShare::of(const float* s) const {
   if (line_) return ofLine(s);
-  return linear_ ? ofPlane(s) : ofWedges(s);
+  if (linear_) return ofPlane(s);
+  return isRing() ? ofWedges(s) : ofMesh(s);
 }
 
 float LightShare::ofLine(const float* s) const {
@@ -87,10 +121,9 @@ float LightShare::ofPlane(const float* s) const {
     v += s[k] * places_[k].y;
   }
   mean /= count;
-  const float slope = 2.0f / (count - 1.0f) * std::sqrt(u * u + v * v) * radius_;
+  const float slope = std::sqrt(u * u + v * v) / moment_ * radius_;
   if (!(slope > 1e-6f)) return (radius_ > 0 ? mean : s[0]) > 0 ? 1.0f : 0.0f;
-  const float d = std::clamp(mean / slope, -1.0f, 1.0f);
-  return std::clamp(0.5f + (d * std::sqrt(1.0f - d * d) + arcSine(d)) / pi, 0.0f, 1.0f);
+  return discShare(mean / slope);
 }
 
 float LightShare::ofWedges(const float* s) const {

@@ -1,70 +1,93 @@
 #include "passes/mask_distance.h"
 
-#include <cmath>
+#include <tbb/enumerable_thread_specific.h>
+
+#include <unordered_map>
 
 #include "image/parallel.h"
-#include "passes/nearest_site.h"
+#include "passes/mask_distance_box.h"
 #include "passes/require_size.h"
+#include "passes/site_rows.h"
 
 namespace kagefude {
 namespace {
 
-constexpr float farthest = 2000.0f;
-constexpr uint8_t notWanted = 2;
+using detail::BoxScratch;
+using detail::Place;
+using detail::SiteRows;
 
-void splitKinds(View<const uint8_t> mask, View<const uint8_t> wanted, View<uint8_t> sites,
-                View<uint8_t> kinds) {
-  parallelRows(mask.height, [&](int y0, int y1) {
-    for (int y = y0; y < y1; ++y) {
-      const uint8_t *const m = mask.row(y), *const w = wanted.row(y);
-      uint8_t *const s = sites.row(y), *const k = kinds.row(y);
-      for (int x = 0; x < mask.width; ++x) {
-        s[x] = m[x] != 0;
-        k[x] = w[x] == 1 ? s[x] : notWanted;
+/// Boxes up to this many pixels go one to a thread; larger ones are cut up among all threads, so
+/// that their scratch is never held twice.
+constexpr uint64_t largestAlone = 1 << 20;
+
+/// Pixels of scattered labels, each label's in raster order.
+std::vector<std::vector<Place>> pixelsOf(std::span<const LabelBox> boxes,
+                                         View<const uint32_t> labels) {
+  std::unordered_map<uint32_t, size_t> slots;
+  for (const LabelBox& box : boxes) slots.emplace(box.label, slots.size());
+  std::vector<std::vector<Place>> lists(boxes.size());
+  for (size_t i = 0; i < boxes.size(); ++i) lists[i].reserve(boxes[i].pixels);
+  for (int y = 0; y < labels.height; ++y) {
+    const uint32_t* const row = labels.row(y);
+    uint32_t last = 0;
+    auto slot = slots.end();
+    for (int x = 0; x < labels.width; ++x) {
+      if (row[x] != last) {
+        last = row[x];
+        slot = last ? slots.find(last) : slots.end();
       }
+      if (slot != slots.end()) lists[slot->second].push_back({x, y});
     }
-  });
+  }
+  return lists;
 }
 
-void storeSigned(View<const uint32_t> squared, View<const uint8_t> kinds, uint8_t kind,
-                 View<int16_t> result) {
-  const float sign = kind ? 1.0f : -1.0f;
-  parallelRows(result.height, [&](int y0, int y1) {
-    for (int y = y0; y < y1; ++y)
-      for (int x = 0; x < result.width; ++x) {
-        if (kinds(x, y) != kind) continue;
-        const float d = std::sqrt(static_cast<float>(squared(x, y))) - 0.5f;
-        result(x, y) = squared(x, y) == noSite || d > farthest
-                           ? (kind ? farLit : farDark)
-                           : static_cast<int16_t>(sign * (d / distanceUnit + 0.5f));
-      }
-  });
+/// One label by lists of its sites, for every mask.
+void measureList(const std::vector<Place>& pixels, std::span<const View<const uint8_t>> masks,
+                 const PixelSet& wanted, View<int16_t> distances) {
+  std::vector<Place> kinds[2];
+  for (size_t k = 0; k < masks.size(); ++k) {
+    for (std::vector<Place>& kind : kinds) kind.clear();
+    for (const Place p : pixels) kinds[masks[k](p.x, p.y) != 0].push_back(p);
+    const SiteRows sites[2] = {SiteRows(kinds[0]), SiteRows(kinds[1])};
+    for (const bool lit : {false, true})
+      for (const Place p : kinds[lit])
+        if (wanted.contains(p.x, p.y))
+          distances.row(static_cast<int>(k))[wanted.indexOf(p.x, p.y)] =
+              detail::signedDistance(sites[!lit].nearest(p).squared, lit);
+  }
 }
 
 }  // namespace
 
-std::vector<Distances> maskDistances(std::span<const View<const uint8_t>> masks,
-                                     View<const uint8_t> wanted, View<const uint32_t> labels) {
-  const int width = wanted.width, height = wanted.height;
-  std::vector<Distances> result;
-  SiteSearch search{wanted, 0, wanted, 1, labels};
-  const std::vector<LabelBox> boxes = findLabelBoxes(search);
-  Bytes sites(width, height), kinds(width, height);
-  Labels squared(width, height);
-  search.kinds = sites;
-  search.wantedKinds = kinds;
-  for (const View<const uint8_t>& mask : masks) {
-    requireSize("a shadow mask", mask, width, height);
-    splitKinds(mask, wanted, sites, kinds);
-    Distances& signedDistance = result.emplace_back(width, height, int16_t{0});
-    for (const uint8_t kind : {uint8_t{0}, uint8_t{1}}) {
-      search.wantedKind = kind;
-      search.siteKind = 1 - kind;
-      findNearestSites(search, boxes, squared);
-      storeSigned(squared, kinds, kind, signedDistance);
-    }
+Distances maskDistances(std::span<const View<const uint8_t>> masks, const PixelSet& wanted,
+                        View<const uint32_t> labels) {
+  for (const View<const uint8_t>& mask : masks)
+    requireSize("a shadow mask", mask, wanted.width(), wanted.height());
+  Distances distances(static_cast<int>(wanted.size()), static_cast<int>(masks.size()));
+  if (wanted.size() == 0) return distances;
+  std::vector<LabelBox> large, small, thin;
+  for (const LabelBox& box : findLabelBoxes(labels, wanted)) {
+    const uint64_t area = static_cast<uint64_t>(box.x1 - box.x0) * (box.y1 - box.y0);
+    const bool listed = !labels.empty() && isScattered(box);
+    (listed ? thin : (area > largestAlone ? large : small)).push_back(box);
   }
-  return result;
+  const auto task = [&](const LabelBox& box, size_t k) {
+    return detail::MaskBox{masks[k], labels, wanted, box, distances.row(static_cast<int>(k))};
+  };
+  BoxScratch shared;
+  for (const LabelBox& box : large)
+    for (size_t k = 0; k < masks.size(); ++k) detail::measureBox(task(box, k), shared, true);
+  tbb::enumerable_thread_specific<BoxScratch> own;
+  tbb::parallel_for(size_t{0}, small.size() * masks.size(), [&](size_t i) {
+    const size_t k = i % masks.size();
+    detail::measureBox(task(small[i / masks.size()], k), own.local(), false);
+  });
+  const std::vector<std::vector<Place>> lists =
+      thin.empty() ? std::vector<std::vector<Place>>{} : pixelsOf(thin, labels);
+  tbb::parallel_for(size_t{0}, lists.size(),
+                    [&](size_t i) { measureList(lists[i], masks, wanted, distances); });
+  return distances;
 }
 
 }  // namespace kagefude

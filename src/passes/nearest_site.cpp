@@ -19,12 +19,16 @@ constexpr uint64_t thinBox = 32;
 constexpr uint32_t tinyLabel = 64;
 constexpr uint64_t smallBox = 1 << 16;
 
-void requireSearchable(const SiteSearch& s) {
-  const int width = s.kinds.width, height = s.kinds.height;
+void requireSide(int width, int height) {
   if (width > longestSide || height > longestSide)
     throw InputError(
         fmt::format("a frame of {}x{} pixels is too large to search; at most {} a side", width,
                     height, longestSide));
+}
+
+void requireSearchable(const SiteSearch& s) {
+  const int width = s.kinds.width, height = s.kinds.height;
+  requireSide(width, height);
   requireSize("the plane of wanted pixels", s.wantedKinds, width, height);
   if (!s.labels.empty()) requireSize("the label plane", s.labels, width, height);
 }
@@ -53,35 +57,35 @@ LabelBox& boxOf(Boxes& boxes, uint32_t label) {
   return boxes.try_emplace(label, emptyBox(label)).first->second;
 }
 
-void addRow(const SiteSearch& s, int y, Boxes& boxes) {
-  const uint32_t* const label = s.labels.row(y);
-  const uint8_t* const kind = s.wantedKinds.row(y);
-  for (int x = 0, end; x < s.labels.width; x = end) {
-    int first = longestSide, last = -1;
-    for (end = x; end < s.labels.width && label[end] == label[x]; ++end)
-      if (kind[end] == s.wantedKind) {
-        first = std::min(first, end);
-        last = end;
-      }
+/// A row's runs of labels. ends(x, end) gives the first wanted pixel of [x, end) and the one behind
+/// the last, or equal ones.
+template <class Ends>
+void addRow(View<const uint32_t> labels, int y, const Ends& ends, Boxes& boxes) {
+  const uint32_t* const label = labels.row(y);
+  for (int x = 0, end; x < labels.width; x = end) {
+    for (end = x + 1; end < labels.width && label[end] == label[x];) ++end;
     if (label[x] == 0) continue;
     LabelBox& box = boxOf(boxes, label[x]);
     box.pixels += static_cast<uint32_t>(end - x);
     include(box, x, end, y, y + 1);
-    if (last >= 0) includeWanted(box, first, last + 1, y, y + 1);
+    const auto [first, last] = ends(x, end);
+    if (first < last) includeWanted(box, first, last, y, y + 1);
   }
 }
 
-}  // namespace
+std::vector<LabelBox> wholeFrame(int width, int height) {
+  return {{0, static_cast<uint32_t>(width) * static_cast<uint32_t>(height), 0, 0, width, height, 0,
+           0, width, height}};
+}
 
-std::vector<LabelBox> findLabelBoxes(const SiteSearch& search) {
-  requireSearchable(search);
-  const int width = search.kinds.width, height = search.kinds.height;
-  if (search.labels.empty())
-    return {{0, static_cast<uint32_t>(search.kinds.pixels()), 0, 0, width, height, 0, 0, width,
-             height}};
+/// ends(y) gives a row's `ends` for addRow.
+template <class RowEnds>
+std::vector<LabelBox> boxesOf(View<const uint32_t> labels, const RowEnds& ends) {
+  const int height = labels.height;
   std::vector<Boxes> bands(static_cast<size_t>((height + bandRows - 1) / bandRows));
   parallelRows(height, bandRows, [&](int y0, int y1) {
-    for (int y = y0; y < y1; ++y) addRow(search, y, bands[static_cast<size_t>(y0 / bandRows)]);
+    for (int y = y0; y < y1; ++y)
+      addRow(labels, y, ends(y), bands[static_cast<size_t>(y0 / bandRows)]);
   });
   Boxes all;
   for (const Boxes& band : bands)
@@ -99,6 +103,34 @@ std::vector<LabelBox> findLabelBoxes(const SiteSearch& search) {
   return boxes;
 }
 
+}  // namespace
+
+std::vector<LabelBox> findLabelBoxes(const SiteSearch& search) {
+  requireSearchable(search);
+  if (search.labels.empty()) return wholeFrame(search.kinds.width, search.kinds.height);
+  return boxesOf(search.labels, [&](int y) {
+    return [kind = search.wantedKinds.row(y), wanted = search.wantedKind](int x, int end) {
+      while (x < end && kind[x] != wanted) ++x;
+      while (x < end && kind[end - 1] != wanted) --end;
+      return std::pair(x, end);
+    };
+  });
+}
+
+std::vector<LabelBox> findLabelBoxes(View<const uint32_t> labels, const PixelSet& wanted) {
+  requireSide(wanted.width(), wanted.height());
+  if (labels.empty()) return wholeFrame(wanted.width(), wanted.height());
+  requireSize("the label plane", labels, wanted.width(), wanted.height());
+  return boxesOf(labels, [&](int y) {
+    return [&wanted, y](int x, int end) { return wanted.ends(x, end, y); };
+  });
+}
+
+bool isScattered(const LabelBox& box) {
+  const uint64_t area = static_cast<uint64_t>(box.x1 - box.x0) * (box.y1 - box.y0);
+  return box.pixels <= tinyLabel || area > thinBox * box.pixels;
+}
+
 void findNearestSites(const SiteSearch& search, const std::vector<LabelBox>& boxes,
                       View<uint32_t> squared, View<uint32_t> index) {
   requireSearchable(search);
@@ -112,8 +144,7 @@ void findNearestSites(const SiteSearch& search, const std::vector<LabelBox>& box
   std::vector<LabelBox> large, small, thin;
   for (const LabelBox& box : boxes) {
     const uint64_t area = static_cast<uint64_t>(box.x1 - box.x0) * (box.y1 - box.y0);
-    const bool listed =
-        !search.labels.empty() && (box.pixels <= tinyLabel || area > thinBox * box.pixels);
+    const bool listed = !search.labels.empty() && isScattered(box);
     (listed ? thin : (area > smallBox ? large : small)).push_back(box);
   }
   // Large boxes one after the other, so that their scratch is never held twice.

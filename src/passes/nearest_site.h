@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "image/plane.h"
+#include "passes/pixel_set.h"
 
 namespace kagefude {
 
@@ -32,6 +33,10 @@ struct LabelBox {
 /// frame. They hold for every search with the same labels and wanted pixels. Label 0 is background:
 /// never a site, never wanted. Cost: one read of both planes, on all threads.
 std::vector<LabelBox> findLabelBoxes(const SiteSearch& search);
+std::vector<LabelBox> findLabelBoxes(View<const uint32_t> labels, const PixelSet& wanted);
+
+/// Whether a label is so small, or so thin in its box, that its pixels go by lists.
+bool isScattered(const LabelBox& box);
 
 /// Squared distance in pixels, exact, from each wanted pixel to the nearest site of its label; a
 /// wanted pixel that is a site itself gives 0. noSite at other pixels, and where the label has no

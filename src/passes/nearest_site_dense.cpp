@@ -4,16 +4,12 @@
 
 #include "image/clones.h"
 #include "image/parallel.h"
+#include "passes/distance_row.h"
 
 namespace kagefude::detail {
 namespace {
 
-constexpr int16_t noRow = 32767;     ///< no site of the label in this column
-constexpr uint16_t farAway = 32767;  ///< squared row distance of a site that is out of reach
-constexpr int reach = 180;           ///< reach² + farAway still fits 16 bits
-constexpr int block = 32;
 constexpr int stripColumns = 64;
-using Lanes = uint16_t __attribute__((vector_size(2 * block)));
 
 /// A run of columns of the box, and where its signed row distances go.
 struct Strip {
@@ -58,86 +54,6 @@ KAGEFUDE_CLONES void columnPhase(const Strip& s) {
   }
 }
 
-/// Squares a row of offsets; those out of reach become farAway.
-KAGEFUDE_CLONES void squareRow(const int16_t* offsets, int count, uint16_t* squares) {
-  for (int i = 0; i < count; ++i) {
-    const int16_t away = static_cast<int16_t>(offsets[i] < 0 ? -offsets[i] : offsets[i]);
-    squares[i] = away > reach ? farAway : static_cast<uint16_t>(away * away);
-  }
-}
-
-/// Smallest squares[x ± o] + o² for a block of pixels; lanes start at `best`, 0 where no answer is
-/// wanted. Returns false when a lane may have a nearer site out of reach.
-KAGEFUDE_CLONES bool searchBlock(const uint16_t* squares, uint16_t* best) {
-  Lanes lowest, here;
-  std::memcpy(&lowest, best, sizeof lowest);
-  std::memcpy(&here, squares, sizeof here);
-  lowest = here < lowest ? here : lowest;
-  bool open = true;
-  for (int o = 1; o <= reach && open;) {
-    for (const int end = o + 4; o < end; ++o) {
-      Lanes left, right;
-      std::memcpy(&left, squares - o, sizeof left);
-      std::memcpy(&right, squares + o, sizeof right);
-      const Lanes near = (left < right ? left : right) + static_cast<uint16_t>(o * o);
-      lowest = near < lowest ? near : lowest;
-    }
-    // The next offset is o: nothing nearer than o² is left to find.
-    const Lanes above = (Lanes)(lowest > static_cast<uint16_t>(o * o));
-    uint64_t words[sizeof above / 8];
-    std::memcpy(words, &above, sizeof above);
-    uint64_t any = 0;
-    for (const uint64_t word : words) any |= word;
-    open = any != 0;
-  }
-  std::memcpy(best, &lowest, sizeof lowest);
-  return !open;
-}
-
-/// Lower envelope of the parabolas (x - u)² + offset(u)² of one row, exact at any distance.
-class Envelope {
- public:
-  void build(const int16_t* offsets, int count) {
-    columns_.clear();
-    starts_.clear();
-    for (int u = 0; u < count; ++u) {
-      if (offsets[u] == noRow || offsets[u] == -noRow) continue;
-      int start = 0;
-      while (!columns_.empty()) {
-        start = crossing(offsets, columns_.back(), u) + 1;
-        if (start > starts_.back()) break;
-        columns_.pop_back();
-        starts_.pop_back();
-        start = 0;
-      }
-      if (start >= count) continue;
-      columns_.push_back(u);
-      starts_.push_back(start);
-    }
-    cursor_ = 0;
-  }
-
-  /// Squared distance at column x; x must not fall between calls after one build.
-  uint32_t at(const int16_t* offsets, int x) {
-    if (columns_.empty()) return noSite;
-    while (cursor_ + 1 < columns_.size() && starts_[cursor_ + 1] <= x) ++cursor_;
-    const int64_t across = x - columns_[cursor_], down = offsets[columns_[cursor_]];
-    return static_cast<uint32_t>(across * across + down * down);
-  }
-
- private:
-  /// The last column at which u's parabola is not above v's (u < v).
-  static int crossing(const int16_t* offsets, int u, int v) {
-    const int64_t fu = int64_t{offsets[u]} * offsets[u], fv = int64_t{offsets[v]} * offsets[v];
-    const int64_t top = int64_t{v} * v - int64_t{u} * u + fv - fu, bottom = 2 * int64_t{v - u};
-    const int64_t floored = top >= 0 ? top / bottom : -((-top + bottom - 1) / bottom);
-    return static_cast<int>(std::clamp<int64_t>(floored, -1, 65535));
-  }
-
-  std::vector<int> columns_, starts_;
-  size_t cursor_ = 0;
-};
-
 /// Index of the site at squared distance d2 from (x, y): the smallest y, then the smallest x.
 uint32_t siteIndexAt(const int16_t* offsets, int count, int x, int y, uint32_t d2, int x0,
                      int width) {
@@ -167,31 +83,29 @@ class RowPhase {
         offsets_(offsets),
         squared_(squared),
         index_(index),
-        squares_(static_cast<size_t>(offsets.width) + 2 * pad, farAway) {}
+        squares_(static_cast<size_t>(offsets.width) + 2 * rowPad, farAway) {}
 
   void run(int y) {
     row_ = offsets_.row(y - box_.y0);
     squared16Ready_ = envelopeReady_ = false;
-    for (int x = box_.wantedX0; x < box_.wantedX1; x += block) {
-      uint16_t best[block];
+    for (int x = box_.wantedX0; x < box_.wantedX1; x += rowBlock) {
+      uint16_t best[rowBlock];
       if (wantedLanes(x, y, best)) searchWanted(x, y, best);
     }
   }
 
  private:
-  static constexpr int pad = reach + 4 + block;
-
   /// Sets lanes to the largest value where the block's pixels are wanted, else to 0.
   bool wantedLanes(int x, int y, uint16_t* lanes) const {
     const uint8_t* const kind = search_.wantedKinds.row(y) + x;
-    const int count = std::min(block, box_.wantedX1 - x);
+    const int count = std::min(rowBlock, box_.wantedX1 - x);
     int found = 0;
     for (int i = 0; i < count; ++i) found += kind[i] == search_.wantedKind;
     if (found == 0) return false;
-    for (int i = 0; i < block; ++i)
+    for (int i = 0; i < rowBlock; ++i)
       lanes[i] = i < count && kind[i] == search_.wantedKind && inLabel(x + i, y) ? 65535 : 0;
     uint16_t any = 0;
-    for (int i = 0; i < block; ++i) any |= lanes[i];
+    for (int i = 0; i < rowBlock; ++i) any |= lanes[i];
     return any != 0;
   }
 
@@ -200,16 +114,17 @@ class RowPhase {
   }
 
   void searchWanted(int x, int y, uint16_t* best) {
-    if (!squared16Ready_) squareRow(row_, offsets_.width, squares_.data() + pad);
+    if (!squared16Ready_) squareRow(row_, offsets_.width, squares_.data() + rowPad);
     squared16Ready_ = true;
-    uint16_t wanted[block];
+    uint16_t wanted[rowBlock];
     std::memcpy(wanted, best, sizeof wanted);
-    const bool done = !envelopeReady_ && searchBlock(squares_.data() + pad + (x - box_.x0), best);
+    const bool done =
+        !envelopeReady_ && searchBlock(squares_.data() + rowPad + (x - box_.x0), best);
     if (!done && !envelopeReady_) {
       envelope_.build(row_, offsets_.width);
       envelopeReady_ = true;
     }
-    for (int i = 0; i < block; ++i) {
+    for (int i = 0; i < rowBlock; ++i) {
       if (!wanted[i]) continue;
       const int column = x + i - box_.x0;
       const uint32_t d2 = done ? best[i] : envelope_.at(row_, column);

@@ -13,6 +13,7 @@ struct PairParams {
   int step = 3;           ///< N: every step-th pixel in x and y is searched, pixels
   bool adaptive = false;  ///< smaller steps where the penumbra is narrow
   SearchBound bound = SearchBound::object;
+  bool horizon = true;  ///< where a receiver's own horizon parts the masks, go by it (horizon.h)
 };
 
 inline constexpr std::string_view pairSearchNames[] = {"exact", "grid"};
@@ -29,6 +30,10 @@ inline constexpr Parameter pairParameters[] = {
     choice<&PairParams::bound>(
         "bound", searchBoundNames,
         "What a search must not leave: nothing, the object, or the smoothly connected surface."),
+    plain<&PairParams::horizon>(
+        "horizon",
+        "Where one mask stands below the surface's own horizon, take the share of the "
+        "light above it instead of a search; off: as the seed."),
 };
 inline constexpr ParameterTable pairTable{
     "pair", "Visibility between two hard masks from a nearest-pixel search.",

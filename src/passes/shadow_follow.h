@@ -1,11 +1,8 @@
 #pragma once
 
-#include <span>
-#include <vector>
+#include <optional>
 
-#include "image/plane.h"
-#include "passes/light_shape.h"
-#include "passes/mask_distance.h"
+#include "passes/shadow_match.h"
 
 namespace kagefude {
 
@@ -15,109 +12,70 @@ namespace kagefude {
 /// A blocker's shadow shifts on the receiver's tangent plane by -τ(δ - d (N·δ)/(N·d)) when the
 /// light moves by δ, with d the way the light travels and τ one number: the ratio of the blocker's
 /// distances from receiver and light (for a sun, its distance from the receiver). So on the picture
-/// all shifts at a pixel are known up to one length, the shift R in pixels for the light's radius.
-/// It is found by matching: at the right R all masks, moved to one place of the light, agree. Their
-/// disagreement is summed over tiles, and over windows that grow with R, for lengths √2 apart.
-/// A place between three masks takes each with its barycentric weight, so where the
-/// match is poor the result is no worse than a weighted mean of masks.
+/// all shifts at a pixel are known up to one length (shadow_shift.h), the shift R in pixels for the
+/// light's radius, which is found by matching (shadow_match.h). A place between three masks takes
+/// each with its barycentric weight, so where the match is poor the result is no worse than a
+/// weighted mean of masks.
 ///
-/// Taps count on pixels of the same id and about the same normal only. Deterministic; no state
-/// between pixels but the tiles' sums, which are made in a fixed order.
+/// Deterministic; no state between pixels but the tiles' sums, which are made in a fixed order.
 class ShadowFollow {
  public:
-  static constexpr size_t mostMasks = 16;
+  static constexpr size_t mostMasks = ShadowTaps::mostMasks;
 
-  /// masks: at most mostMasks, a disc's. distances: of the masks, measured where they disagree.
+  /// masks: at most mostMasks, a disc's. distances: of the masks, at `edges`, where they disagree.
+  /// All must outlive this.
   ShadowFollow(std::span<const View<const uint8_t>> masks, std::span<const V2f> places,
-               const std::vector<Distances>& distances, View<const uint32_t> labels,
+               const Distances& distances, const PixelSet& edges, View<const uint32_t> labels,
                Vec3View position, Vec3View normal, const LightGeometry& geometry, float radius);
+  ShadowFollow(const ShadowFollow&) = delete;
+  ShadowFollow& operator=(const ShadowFollow&) = delete;
 
-  /// Places on the light, each between three masks, in arrays for gathering.
-  struct Places {
-    static constexpr int most = 80;
-    int count = 0;
-    float x[3][most], y[3][most];  ///< offsets from the three masks, in units of place
-    float weight[3][most];
-    int32_t mask[3][most];
-  };
+  /// Pixels of a row that, from a multiple of it on, may all have answers or none.
+  static constexpr int run = ShadowMatch::smallestTile;
 
   struct Answer {
     float visibility = 1;
     float trust = 0;  ///< 0: use distances, 1: use this
     float shift = 0;  ///< pixels, for the light's radius
   };
-  /// For pixels at or near the edge of a shadow that distances do not explain; elsewhere trust is
-  /// 0.
-  Answer at(int x, int y) const { return sparse_.view().empty() ? measured(x, y) : between(x, y); }
+
+  /// Answers in a band of rows. In large frames those of every other pixel in every other row are
+  /// made first, where shifts are wide those of every fourth, and the rest interpolated.
+  class Band {
+   public:
+    /// Rows [y0, y1); y0 a multiple of 4, y1 too or the frame's end.
+    Band(const ShadowFollow& follow, int y0, int y1);
+
+    /// False when no pixel of the row's run that holds x can have an answer.
+    bool mayAnswer(int x, int y) const { return follow_.match_.mayFind(x, y); }
+    /// For pixels at or near the edge of a shadow that distances do not explain; elsewhere trust is
+    /// 0.
+    Answer at(int x, int y) const {
+      return sparse_.empty() ? follow_.measured(x, y) : between(x, y);
+    }
+
+   private:
+    /// For column i and row j of the sparse answers: interpolated among those at even ones where
+    /// all of them are trusted and shift far, else measured.
+    Answer betweenWide(int i, int j) const;
+    /// Interpolated among those of the same label, but measured where shifts are so short that this
+    /// would blur.
+    Answer between(int x, int y) const;
+
+    const ShadowFollow& follow_;
+    int firstRow_;  ///< of the sparse answers
+    Plane<Answer> sparse_;
+  };
 
  private:
-  struct Basis {
-    float ux, uy, vx, vy;  ///< pixels of the places' u and v, the longest shift being 1
-    float trust;           ///< less where light grazes the surface, which may bend away
-    bool valid;
-  };
-  static constexpr int mostShifts = 16;
-  /// Disagreements of one label in one tile.
-  struct Sums {
-    uint32_t label = 0;
-    float count = 0;
-    float cost[mostShifts] = {};
-  };
-  struct Choice {
-    uint32_t label = 0;
-    float level = 0;  ///< place among the shifts, fractional
-    float cost = 1;
-  };
-  struct Tile {
-    Sums sums[2];
-  };
-
-  void pack(std::span<const View<const uint8_t>> masks, Vec3View normal);
-  /// 0 where one straight edge, moved over the light, explains all distances of a pixel where masks
-  /// disagree, so that wedges are right without following; 1 where it is far from doing so, and
-  /// where masks agree and a shadow between them may have been missed.
-  /// Whether a pixel of the same label near (x, y) shows `opposite` in all masks.
-  bool besideOpposite(int x, int y, uint32_t opposite, uint32_t all) const;
-  float needAt(int x, int y) const;
   Answer measured(int x, int y) const;
-  /// Large frames: answers of every other pixel in every other row.
-  void fillSparse();
-  /// Interpolated among those of the same label, but measured where shifts are so short that this
-  /// would blur.
-  Answer between(int x, int y) const;
-  void measure();
-  void measureTile(int tx, int ty);
-  void choose();
-  Choice chooseFor(int tx, int ty, uint32_t label) const;
-  Basis basisAt(int x, int y) const;
-  Places placesOf(std::span<const V2f> masks, int count, float radius) const;
-  struct Mean {
-    float visibility, cost;
-    bool valid;
-  };
-  Mean meanAt(const Places& places, int x, int y, const Basis& b, float shift) const;
 
-  /// Share of masks that, moved by the shift, do not foretell what another sees here. Without it a
-  /// shift that carries every tap past the shadow would agree with itself.
-  float mismatchAt(int x, int y, const Basis& b, float shift) const;
-
-  const std::vector<Distances>& distances_;
-  View<const uint32_t> labels_;
+  ShadowTaps taps_;
+  ShadowNeed need_;
+  ShadowMatch match_;
+  ShadowPlaces places_;
   Vec3View position_, normal_;
-  LightGeometry geometry_;
-  size_t maskCount_;
-  std::vector<V2f> masks_;  ///< their places
-  int tile_, tilesX_, tilesY_;
-  int shifts_ = 0;
-  float length_[mostShifts];
-  Places coarse_, fine_;
-  Plane<uint32_t> pixels_;  ///< normal, mask bits
-  std::vector<Tile> tiles_;
-  struct Choices {
-    Choice of[2];
-  };
-  std::vector<Choices> choices_;
-  Plane<Answer> sparse_;
+  const LightGeometry& geometry_;
 };
 
 }  // namespace kagefude

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "passes/mask_distance.h"
+#include "passes/disc_places.h"
 #include "passes/random_image.h"
 
 namespace kagefude {
@@ -182,29 +182,123 @@ TEST(LightShape, SameBitsForAnyNumberOfThreads) {
   EXPECT_TRUE(test::equalBits<float>(many.confidence, single.confidence));
 }
 
-TEST(MaskDistance, EqualsTheNaiveSearchWithinLabels) {
-  constexpr int size = 24;
-  Bytes mask(size, size), wanted(size, size, uint8_t{1});
-  Labels labels(size, size);
-  std::mt19937 random(5);
-  for (int i = 0; i < size * size; ++i) {
-    mask.view().data[i] = random() % 5 != 0;
-    labels.view().data[i] = random() % 3;
+TEST(LightShape, ReceiverWithoutUmbraPixelStaysBetweenItsMasks) {
+  // The label's pixels are lit in every mask but two: nothing is dark in all of them.
+  Floor floor(24, 24, 0, [](float, float) { return true; });
+  floor.masks[2].fill(0);
+  floor.masks[6].fill(0);
+  const LightShapeResult result = floor.resolve();
+  EXPECT_GT(result.visibility(12, 12), 0.6f);
+  EXPECT_LT(result.visibility(12, 12), 1.0f);
+  EXPECT_EQ(result.confidence(12, 12), 0.0f);
+}
+
+TEST(LightShape, FramesEdgeIsNoShadowsEdge) {
+  // The same shadow with the frame cut off beside it: what is left does not change where the edge
+  // is nearer than the frame's.
+  const auto lit = [](float x, float) { return x > 47.5f; };
+  const Floor whole(96, 64, 8, lit), cut(60, 64, 8, lit);
+  const LightShapeResult a = whole.resolve(), b = cut.resolve();
+  for (int x = 36; x < 60; ++x) EXPECT_NEAR(a.visibility(x, 32), b.visibility(x, 32), 0.02) << x;
+}
+
+TEST(LightShape, SoftenWidensTheLight) {
+  // Softened by one radius, the penumbra of a straight edge is that of a light twice as large.
+  const Floor floor(128, 64, 8, [](float x, float) { return x > 63.5f; });
+  LightShapeParams soft;
+  soft.soften = 1;
+  const LightShapeResult result = floor.resolve(soft);
+  for (int x = 40; x < 88; ++x)
+    EXPECT_NEAR(result.visibility(x, 32), circleShare((x - 63.5) / 16), 0.06) << x;
+}
+
+TEST(LightShape, AbstractSmoothsContoursAndKeepsStraightOnes) {
+  const auto saw = [](float x, float y) {
+    return x > 47.5f + 4.0f * std::fabs(std::remainder(y, 8.0f)) - 8.0f;
+  };
+  const auto edgeAt = [](const LightShapeResult& r, int y) {
+    double sum = 0;
+    for (int x = 24; x < 72; ++x) sum += r.visibility(x, y);
+    return 72 - sum;
+  };
+  LightShapeParams abstract, plain;
+  abstract.abstract = 6;
+  plain.follow = false;
+  const Floor toothed(96, 64, 3, saw);
+  const LightShapeResult a = toothed.resolve(abstract), p = toothed.resolve(plain);
+  double low = 1e9, high = 0, plainLow = 1e9, plainHigh = 0;
+  for (int y = 24; y < 40; ++y) {
+    low = std::min(low, edgeAt(a, y)), high = std::max(high, edgeAt(a, y));
+    plainLow = std::min(plainLow, edgeAt(p, y)), plainHigh = std::max(plainHigh, edgeAt(p, y));
   }
-  for (int i = 0; i < size * size; ++i) wanted.view().data[i] = labels.view().data[i] != 0;
-  const std::vector<View<const uint8_t>> masks{mask};
-  const std::vector<Distances> found = maskDistances(masks, wanted, labels);
-  for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      if (labels(x, y) == 0) continue;
-      double nearest = 1e9;
-      for (int v = 0; v < size; ++v)
-        for (int u = 0; u < size; ++u)
-          if (labels(u, v) == labels(x, y) && mask(u, v) != mask(x, y))
-            nearest = std::min(nearest, std::hypot(u - x, v - y));
-      const double sign = mask(x, y) ? 1 : -1;
-      EXPECT_NEAR(found[0](x, y) * distanceUnit, sign * (nearest - 0.5), 1.0 / 16);
+  EXPECT_GT(plainHigh - plainLow, 4.0) << "teeth";
+  EXPECT_LT(high - low, 0.5 * (plainHigh - plainLow));
+  const Floor straight(96, 64, 6, [](float x, float) { return x > 47.5f; });
+  EXPECT_NEAR(edgeAt(straight.resolve(abstract), 32), edgeAt(straight.resolve(plain), 32), 0.2);
+}
+
+TEST(LightShape, GrowAndShrinkMoveTheEdgeByPixels) {
+  const Floor floor(96, 64, 6, [](float x, float) { return x > 47.5f; });
+  for (const float grow : {-9.0f, 4.0f}) {
+    LightShapeParams params;
+    params.grow = grow;
+    const LightShapeResult result = floor.resolve(params);
+    for (int x = 20; x < 80; ++x)
+      EXPECT_NEAR(result.visibility(x, 32), circleShare((x - 47.5 - grow) / 6.0), 0.06) << x;
+  }
+}
+
+TEST(LightShape, LineOfMasksIsEvenAlongItAndShrinksWithItsSize) {
+  // A tube light along x: the penumbra of a straight edge rises evenly over its length.
+  constexpr int width = 96, height = 16;
+  const Labels labels(width, height, 1u);
+  std::vector<V2f> places;
+  std::vector<Bytes> masks;
+  for (const float u : {-1.0f, -0.5f, 0.0f, 0.5f, 1.0f}) {
+    places.emplace_back(u, 0.0f);
+    Bytes& mask = masks.emplace_back(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) mask(x, y) = static_cast<float>(x) + 12 * u > 47.5f;
+  }
+  const std::vector<View<const uint8_t>> views(masks.begin(), masks.end());
+  for (const float size : {1.0f, 0.5f, 0.0f}) {
+    LightShapeParams params;
+    params.lightSize = size;
+    const LightShapeResult result =
+        lightShapeVisibility(views, places, labels, {}, {}, std::nullopt, params);
+    for (int x = 20; x < 76; ++x) {
+      const float away = static_cast<float>(x) - 47.5f;
+      const float exact = size > 0 ? std::clamp(0.5f + away / (24 * size), 0.0f, 1.0f)
+                                   : static_cast<float>(away > 0);
+      EXPECT_NEAR(result.visibility(x, 8), exact, 0.03f) << x << " " << size;
     }
+  }
+}
+
+TEST(LightShape, SeventeenMasksSeeWhatFallsBetweenNine) {
+  // A dot smaller than the gaps of nine masks, unfollowed, against the share of the disc it covers.
+  const std::vector<V2f> places = discPlaces(17);
+  const auto error = [&](size_t count) {
+    constexpr int size = 96;
+    std::vector<Bytes> masks;
+    for (size_t k = 0; k < count; ++k) {
+      Bytes& mask = masks.emplace_back(size, size);
+      for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+          mask(x, y) = std::hypot(static_cast<float>(x) + 20 * places[k].x - 47.5f,
+                                  static_cast<float>(y) + 20 * places[k].y - 47.5f) > 6.0f;
+    }
+    const std::vector<View<const uint8_t>> views(masks.begin(), masks.end());
+    const LightShapeResult result = lightShapeVisibility(
+        views, {places.data(), count}, Labels(size, size, 1u), {}, {}, std::nullopt, {});
+    double sum = 0;
+    for (int y = 30; y < 66; ++y)
+      for (int x = 30; x < 66; ++x)
+        if (std::hypot(x - 47.5, y - 47.5) < 13)
+          sum += std::pow(result.visibility(x, y) - (1.0 - 36.0 / 400.0), 2);
+    return std::sqrt(sum);
+  };
+  EXPECT_LT(error(17), 0.7 * error(9));
 }
 
 }  // namespace
