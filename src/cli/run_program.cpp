@@ -44,6 +44,7 @@ int runProgram(int argc, const char* const* argv, Console& console) {
   addPassesCommand(app, console, exit);
   addStripCommand(app, console, exit);
   addCompareCommand(app, console, exit);
+  addCheckCommand(app, console, exit);
   try {
     app.parse(argc, argv);
     return exit;
