@@ -13,7 +13,7 @@ namespace kagefude {
 namespace {
 
 struct CheckOptions {
-  std::string comped, aovs, frames, look, plot, jsonFile;
+  std::string comped, unstyled, aovs, frames, look, plot, jsonFile;
   std::string tone = "brush.tone";
   std::vector<std::string> overrides;
   bool json = false;
@@ -36,6 +36,7 @@ void check(const CheckOptions& options, Console& console) {
   CheckRequest request;
   request.comped = FramePattern(options.comped);
   request.aovs = FramePattern(options.aovs.empty() ? options.comped : options.aovs);
+  if (!options.unstyled.empty()) request.unstyled = FramePattern(options.unstyled);
   if (!options.frames.empty()) request.frames = parseFrames(options.frames);
   request.tone = options.tone;
   request.look = readLook(options.look, options.overrides);
@@ -61,6 +62,9 @@ void addCheckCommand(CLI::App& app, Console& console, int&) {
       "--aovs", options->aovs,
       "rendered frames with motion vectors, positions and ids (the sequence itself, "
       "comped with output.passthrough)");
+  command->add_option("--unstyled", options->unstyled,
+                      "the same frames comped with brush.contrast=0 (found from each object's mean "
+                      "colours at each tone)");
   command->add_option("--frames", options->frames, "such as 1-24; without it all that are on disk");
   command->add_option("--tone", options->tone,
                       "layer of the finished frames that holds the tone "

@@ -56,6 +56,20 @@ std::filesystem::path existing(const FramePattern& pattern, int frame) {
   return path;
 }
 
+Vec3Plane readUnstyled(const FramePattern& pattern, int frame, const Finished& finished) {
+  const ImageFile image = openImage(existing(pattern, frame));
+  if (image.width != finished.tone.width() || image.height != finished.tone.height())
+    throw InputError(fmt::format("frame {}: {} is of {}x{} pixels, and the styled frame of {}x{}",
+                                 frame, image.path.string(), image.width, image.height,
+                                 finished.tone.width(), finished.tone.height()));
+  std::vector<Floats> planes = readFloats(image, std::vector<std::string>{"R", "G", "B"});
+  Vec3Plane result;
+  result.x = std::move(planes[0]);
+  result.y = std::move(planes[1]);
+  result.z = std::move(planes[2]);
+  return result;
+}
+
 Finished readFinished(const CheckRequest& request, int frame) {
   const ImageFile image = openImage(existing(request.comped, frame));
   if (!image.findChannel(request.tone))
@@ -157,6 +171,7 @@ CheckResult checkSequence(const CheckRequest& request) {
   const std::vector<int> frames = framesOf(request);
   ToneColours colours;
   for (const int frame : frames) {
+    if (request.unstyled) break;
     const Finished finished = readFinished(request, frame);
     colours.add(finished.motion.ids, finished.tone, finished.picture);
   }
@@ -164,7 +179,8 @@ CheckResult checkSequence(const CheckRequest& request) {
   std::optional<Finished> before;
   for (const int frame : frames) {
     Finished now = readFinished(request, frame);
-    now.plain = colours.plain(now.motion.ids, now.tone);
+    now.plain = request.unstyled ? readUnstyled(*request.unstyled, frame, now)
+                                 : colours.plain(now.motion.ids, now.tone);
     result.frames.push_back(compareFrames(frame, now, before ? &*before : nullptr));
     before = std::move(now);
   }

@@ -12,6 +12,7 @@ namespace kagefude {
 
 struct CheckRequest {
   FramePattern comped;                     ///< the finished frames: R, G, B and the tone layer
+  std::optional<FramePattern> unstyled;    ///< the same, comped with brush.contrast = 0
   FramePattern aovs;                       ///< the rendered frames that they were made from
   std::optional<std::vector<int>> frames;  ///< without it all finished frames on disk
   std::string tone = "brush.tone";         ///< layer of the finished frames
@@ -24,7 +25,8 @@ struct CheckedFrame {
   int frame = 0;
   double compared = 0;  ///< share of the surfaces' pixels that are compared
   double picture = 0;   ///< warp error of the finished picture
-  double plain = 0;     ///< of the unstyled tone: each object's mean colour at each pixel's tone
+  double plain = 0;     ///< of the unstyled tone: the unstyled sequence, or without one each
+                        ///< object's mean colour over the sequence at each pixel's tone
   double tone = 0;      ///< of the tone itself, 0..1
   double contrast = 0;  ///< of the strokes, see StrokeMeasure
   double grain = 0;     ///< of the strokes, pixels

@@ -35,7 +35,8 @@ measure() {
   "$kagefude" comp tests/quality/brush.toml "$out/$scene/aovs/$scene.####.exr" \
     -o "$folder/$scene.####.exr" --frames $frames --preview "$folder" --existing update \
     --progress none "${set[@]}"
-  "$kagefude" check "$folder/$scene.####.exr" --aovs "$out/$scene/aovs/$scene.####.exr" \
+  [ "$name" = "${name%_unstyled}" ] || return 0
+  "$kagefude" check "$folder/$scene.####.exr" --unstyled "${folder%_*}_unstyled/$scene.####.exr" --aovs "$out/$scene/aovs/$scene.####.exr" \
     --plot "$folder.plot.png" --json >"$folder.json"
   # Every frame, small, for the eye.
   local sheet=(oiiotool) file
@@ -46,6 +47,7 @@ measure() {
 for scene in "${scenes[@]}"; do
   export_shot "$scene"
   for strip in soft fine; do
+    measure "$scene" $strip unstyled brush.contrast=0
     measure "$scene" $strip seed brush.mapping=seed
     measure "$scene" $strip polar brush.mapping=polar
     measure "$scene" $strip held
