@@ -34,6 +34,7 @@ void addPassesCommand(CLI::App& app, Console& console, int& exit);
 void addStripCommand(CLI::App& app, Console& console, int& exit);
 void addCompareCommand(CLI::App& app, Console& console, int& exit);
 void addBenchCommand(CLI::App& app, Console& console, int& exit);
+void addCheckCommand(CLI::App& app, Console& console, int& exit);
 
 /// Parses the command line and runs one command. Every error ends here as one line on `err` that
 /// begins with "ERROR:".

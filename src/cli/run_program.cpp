@@ -45,6 +45,7 @@ int runProgram(int argc, const char* const* argv, Console& console) {
   addStripCommand(app, console, exit);
   addCompareCommand(app, console, exit);
   addBenchCommand(app, console, exit);
+  addCheckCommand(app, console, exit);
   try {
     app.parse(argc, argv);
     return exit;

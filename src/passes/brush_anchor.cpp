@@ -7,6 +7,9 @@
 namespace kagefude {
 namespace {
 
+/// Share of an octave over which a ground's strokes change to the next size of the scene.
+constexpr float sceneFade = 0.2f;
+
 struct Box {
   V3f center;                     // world
   std::array<V3f, 3> side;        // unit, world
@@ -77,14 +80,28 @@ float octaveShift(float octave) {
   return turns - std::floor(turns);
 }
 
-void fitScreen(BrushAnchor& anchor, float wanted) {
+// Md near `wanted`, in octaves of what it is: the finer one, with `fade` of the gap to the next one
+// in the middle over which the two change places.
+void fitOctave(BrushAnchor& anchor, float wanted, float fade) {
   const float octaves = log2Of(wanted / anchor.mappingDistance);
   if (!std::isfinite(octaves)) return;
   const float whole = std::floor(octaves);
   anchor.mappingDistance *= exp2Of(whole);
-  anchor.coarser = octaves - whole;
+  const float share = (octaves - whole - 0.5f) / fade + 0.5f;
+  anchor.coarser = share > 0.0f ? (share < 1.0f ? share : 1.0f) : 0.0f;
   anchor.shift = octaveShift(whole);
   anchor.coarserShift = octaveShift(whole + 1.0f);
+}
+
+// A ground that reaches far beyond all else gets strokes that fit the scene. The scene's size may
+// change from frame to frame, so in octaves of the ground's own, or strokes would slide.
+void fitScene(BrushAnchor& anchor, const BrushSubject& subject, bool seed) {
+  const float wanted = 0.25f * subject.sceneRadius;
+  if (!subject.flat || !(wanted > 0.0f) || wanted >= anchor.mappingDistance) return;
+  fitOctave(anchor, wanted, sceneFade);
+  if (!seed) return;
+  if (anchor.coarser > 0.5f) anchor.mappingDistance *= 2.0f;
+  anchor.coarser = 0;
 }
 
 }  // namespace
@@ -108,7 +125,6 @@ float automaticMappingDistance(const BrushSubject& subject) {
   float size = sum / 3.0f;
   if (subject.flat) {
     size = (sum - box.halfSize[box.thinnest]) / 2.0f;
-    if (subject.sceneRadius > 0.0f) size = std::min(size, subject.sceneRadius);
   }
   return size > 0.0f && std::isfinite(size) ? size / 4.0f : 1.0f;
 }
@@ -130,11 +146,13 @@ BrushAnchor makeBrushAnchor(const BrushSubject& subject, const Light& light,
   }
   std::stable_sort(anchor.points.begin(), anchor.points.end(),
                    [](const auto& a, const auto& b) { return a.along < b.along; });
-  anchor.mappingDistance = subject.mappingDistance > 0.0f  ? subject.mappingDistance
-                           : params.mappingDistance > 0.0f ? params.mappingDistance
-                                                           : automaticMappingDistance(subject);
+  const float given =
+      subject.mappingDistance > 0.0f ? subject.mappingDistance : params.mappingDistance;
+  anchor.mappingDistance = given > 0.0f ? given : automaticMappingDistance(subject);
   if (params.size == BrushParams::Size::screen && subject.worldPerPixel > 0.0f && !seed)
-    fitScreen(anchor, params.stripPixels * subject.worldPerPixel / (2.0f * pi));
+    fitOctave(anchor, params.stripPixels * subject.worldPerPixel / (2.0f * pi), 1.0f);
+  else if (!(given > 0.0f))
+    fitScene(anchor, subject, seed);
   return anchor;
 }
 

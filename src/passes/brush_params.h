@@ -6,10 +6,12 @@ namespace kagefude {
 
 struct BrushParams {
   enum class Mapping { held, polar, seed };
+  enum class Grain { object, tone };
   enum class CrossFade { variance, linear };
   enum class Filter { anisotropic, bilinear };
   enum class Size { object, screen };
   Mapping mapping = Mapping::held;
+  Grain grain = Grain::object;
   CrossFade crossFade = CrossFade::variance;
   Filter filter = Filter::anisotropic;
   Size size = Size::object;
@@ -25,6 +27,7 @@ struct BrushParams {
 };
 
 inline constexpr std::string_view brushMappings[] = {"held", "polar", "seed"};
+inline constexpr std::string_view brushGrains[] = {"object", "tone"};
 inline constexpr std::string_view brushCrossFades[] = {"variance", "linear"};
 inline constexpr std::string_view brushFilters[] = {"anisotropic", "bilinear"};
 inline constexpr std::string_view brushSizes[] = {"object", "screen"};
@@ -33,6 +36,10 @@ inline constexpr Parameter brushParameters[] = {
                                   "Where a stroke's place along its row comes from: held to the "
                                   "object's own axes, the angle round the light's axis, or the "
                                   "seed's formulas to the letter (mended)."),
+    choice<&BrushParams::grain>("grain", brushGrains,
+                                "Of held strokes: whether they stay on the object and the tone "
+                                "picks their colours, or run along the tone's contours and slide "
+                                "as it changes."),
     choice<&BrushParams::crossFade>("cross_fade", brushCrossFades,
                                     "How two stroke patterns mix: keeping the strip's contrast, "
                                     "or linearly."),

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "passes/brush_taps.h"
-#include "passes/strip_lookup.h"
+#include "passes/grain_lookup.h"
 
 namespace kagefude {
 namespace {
@@ -83,6 +83,30 @@ Rgba mixedColour(const Strip& strip, const BrushTaps& taps, const BrushPixel& pi
   return mixed;
 }
 
+// Mixes the grain of the taps and gives it the tone's colour.
+Rgba grainedColour(const Strip& strip, const BrushTaps& taps, const BrushPixel& pixel,
+                   const BrushParams& params) {
+  float sum = 0, squares = 0, mixed = 0;
+  for (int i = 0; i < taps.count; ++i) sum += taps.weight[i];
+  for (int i = 0; i < taps.count; ++i) squares += taps.weight[i] / sum * (taps.weight[i] / sum);
+  const float gain =
+      params.crossFade == BrushParams::CrossFade::variance ? 1.0f / std::sqrt(squares) : 1.0f;
+  for (int i = 0; i < taps.count; ++i) {
+    const StripProbe probe = grainProbe(strip.grain, taps.footprint[i], params.maxProbes);
+    mixed +=
+        lookUpGrain(strip.grain, taps.u[i], taps.across[i], probe) * (taps.weight[i] / sum * gain);
+  }
+  const float change = std::max(std::fabs(pixel.toneDx), std::fabs(pixel.toneDy));
+  Rgba colour = grainColour(strip.grain, pixel.tone, mixed, change);
+  if (params.contrast != 1.0f) {
+    const Rgba mean = stripRowMean(strip, pixel.tone);
+    colour = mean + (colour - mean) * params.contrast;
+    colour = colour > 0.0f ? colour : Rgba{};
+  }
+  if (strip.opaque) colour[3] = 1.0f;
+  return colour;
+}
+
 }  // namespace
 
 Rgba brushColourAt(const BrushInput& in, const BrushAnchor& anchor, int x, int y, const V3f& p) {
@@ -92,6 +116,13 @@ Rgba brushColourAt(const BrushInput& in, const BrushAnchor& anchor, int x, int y
   if (in.params.mapping == BrushParams::Mapping::seed) {
     addSeedTaps(anchor, pixel, in.params, taps);
     return seedColour(strip, taps, pixel.tone);
+  }
+  if (in.params.mapping == BrushParams::Mapping::held &&
+      in.params.grain == BrushParams::Grain::object) {
+    const StripGrain::Level& grain = strip.grain.levels.front();
+    const float aspect = static_cast<float>(grain.width) / static_cast<float>(grain.height);
+    addObjectTaps(anchor, pixel, in.params, aspect, taps);
+    return grainedColour(strip, taps, pixel, in.params);
   }
   if (in.params.mapping == BrushParams::Mapping::polar)
     addPolarTaps(anchor, pixel, in.params, taps);

@@ -137,6 +137,7 @@ class BlockPainter {
 
 bool canPaintHeldRow(const BrushInput& in, const BrushAnchor& anchor) {
   return in.params.mapping == BrushParams::Mapping::held &&
+         in.params.grain == BrushParams::Grain::tone &&
          in.params.filter == BrushParams::Filter::anisotropic && anchor.points.size() == 1 &&
          12 * in.params.maxProbes <= SampleList::most;
 }

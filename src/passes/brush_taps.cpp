@@ -41,6 +41,27 @@ V3f strokeDirection(const BrushAnchor::Point& point, const BrushPixel& pixel) {
   return round - pixel.normal * pixel.normal.dot(round);
 }
 
+// Squared parts of the strokes' direction along the object's axes.
+void strokeParts(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                 float* parts) {
+  const BrushPlace place = brushPlace(anchor, pixel.position, params.pointBlend);
+  const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
+  const float near = heldNearAxis * anchor.mappingDistance;
+  for (int k = 0; k < 3; ++k) parts[k] = near * near;
+  for (int i = 0; i < 2; ++i) {
+    const float share = i == 0 ? 1.0f - place.next : place.next;
+    if (!(share > 0.0f)) continue;
+    const V3f along = strokeDirection(anchor.points[place.point + static_cast<size_t>(i)], pixel);
+    for (int k = 0; k < 3; ++k) parts[k] += share * along.dot(axes[k]) * along.dot(axes[k]);
+  }
+}
+
+// Weight of one of several patterns by its part against the largest's.
+float excessShare(float part, float largest) {
+  const float excess = part / largest - axisThreshold;
+  return excess > 0.0f ? excess * excess : 0.0f;
+}
+
 }  // namespace
 
 BrushPlace brushPlace(const BrushAnchor& anchor, const V3f& p, float blend) {
@@ -87,25 +108,59 @@ void addPolarTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brus
         smoothStep(distance / (params.poleFade * anchor.mappingDistance * (1.0f + anchor.coarser)));
 }
 
+void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                   float aspect, BrushTaps& taps) {
+  const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
+  float parts[3];
+  strokeParts(anchor, pixel, params, parts);
+  const bool known = pixel.normal.dot(pixel.normal) > 0.0f;
+  const V3f normal = known ? pixel.normal : pixel.dx.cross(pixel.dy);
+  float facing[3];
+  for (int k = 0; k < 3; ++k) facing[k] = normal.dot(axes[k]) * normal.dot(axes[k]) + leastFacing;
+  const float mostFacing = std::max(std::max(facing[0], facing[1]), facing[2]);
+  const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
+  const V3f q = pixel.position - anchor.object.origin;
+  float place[3], placeDx[3], placeDy[3];
+  for (int k = 0; k < 3; ++k) {
+    place[k] = axes[k].dot(q) * perUnit;
+    placeDx[k] = axes[k].dot(pixel.dx) * perUnit;
+    placeDy[k] = axes[k].dot(pixel.dy) * perUnit;
+  }
+  for (int k = 0; k < 3; ++k) {
+    const float faces = excessShare(facing[k], mostFacing);
+    if (!(faces > 0.0f)) continue;
+    const int axis[2] = {(k + 1) % 3, (k + 2) % 3};
+    const float largest = std::max(parts[axis[0]], parts[axis[1]]);
+    const float first = excessShare(parts[axis[0]], largest),
+                second = excessShare(parts[axis[1]], largest);
+    const float share[2] = {first / (first + second), second / (first + second)};
+    for (int side = 0; side < 2; ++side) {
+      if (!(share[side] > 0.0f)) continue;
+      const int i = axis[side], j = axis[1 - side];
+      const auto add = [&](float unit, float shift, float octave) {
+        if (!(octave > 0.0f)) return;
+        const float down = unit * aspect;
+        taps.across[taps.count] = place[j] * down + axisOffset[k];
+        taps.add(place[i] * unit + (axisOffset[i] + shift), faces * share[side] * octave,
+                 {placeDx[i] * unit, placeDx[j] * down, placeDy[i] * unit, placeDy[j] * down});
+      };
+      add(1.0f, anchor.shift, 1.0f - anchor.coarser);
+      add(0.5f, anchor.coarserShift, anchor.coarser);
+    }
+  }
+}
+
 void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
                  BrushTaps& taps) {
-  const BrushPlace place = brushPlace(anchor, pixel.position, params.pointBlend);
   const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
-  const float near = heldNearAxis * anchor.mappingDistance;
-  float parts[3] = {near * near, near * near, near * near};
-  for (int i = 0; i < 2; ++i) {
-    const float share = i == 0 ? 1.0f - place.next : place.next;
-    if (!(share > 0.0f)) continue;
-    const V3f along = strokeDirection(anchor.points[place.point + static_cast<size_t>(i)], pixel);
-    for (int k = 0; k < 3; ++k) parts[k] += share * along.dot(axes[k]) * along.dot(axes[k]);
-  }
+  float parts[3];
+  strokeParts(anchor, pixel, params, parts);
   const float largest = std::max(std::max(parts[0], parts[1]), parts[2]);
   const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
   const V3f q = pixel.position - anchor.object.origin;
   for (int k = 0; k < 3; ++k) {
-    const float excess = parts[k] / largest - axisThreshold;
-    if (!(excess > 0.0f)) continue;
-    const float weight = excess * excess;
+    const float weight = excessShare(parts[k], largest);
+    if (!(weight > 0.0f)) continue;
     const auto add = [&](float unit, float offset, float share) {
       if (share > 0.0f)
         taps.add(axes[k].dot(q) * unit + offset, weight * share,

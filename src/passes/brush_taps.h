@@ -13,6 +13,8 @@ inline constexpr float axisOffset[3] = {0.0f, 0.381966f, 0.763932f};
 /// Share of the largest axis's squared part below which another axis is not read at all: two
 /// patterns lie over each other within 7 degrees of the diagonal only.
 inline constexpr float axisThreshold = 0.6f;
+/// Added to the squared parts of a unit normal, so that an unknown one counts all planes alike.
+inline constexpr float leastFacing = 1e-12f;
 /// Distance from the light axis, in mapping distances, within which the three axes weigh alike.
 inline constexpr float heldNearAxis = 0.05f;
 
@@ -26,9 +28,10 @@ struct BrushPixel {
 
 /// The places on the strip that are mixed at one pixel, with their weights.
 struct BrushTaps {
-  static constexpr int most = 8;
+  static constexpr int most = 12;
   int count = 0;
   float u[most];
+  float across[most];  ///< object grain: the place across the strokes, in heights of the grain
   float weight[most];
   Footprint footprint[most];
   float amplitude = 1;  ///< of the strokes against the row's mean
@@ -56,6 +59,11 @@ void addSeedTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
 /// The same rings with analytic footprints and a fade round the axis.
 void addPolarTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
                   BrushTaps& taps);
+
+/// Places in the planes of the object's own axes: the plane that the surface faces, along whichever
+/// of its two axes the strokes run. `aspect`: width over height of the grain in texels.
+void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                   float aspect, BrushTaps& taps);
 
 /// Places along the object's own axes.
 void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,

@@ -90,6 +90,7 @@ Strip makeStrip(View<const float> r, View<const float> g, View<const float> b,
     shrinkLine(
         r.width, 1, [&](int x) { return chain.front()(x, y); },
         [&](int, Rgba mean) { strip.means(y, 0) = mean; });
+  strip.grain = makeStripGrain(strip.levels.front().texels);
   return strip;
 }
 

@@ -3,11 +3,9 @@
 #include <vector>
 
 #include "image/plane.h"
+#include "passes/strip_grain.h"
 
 namespace kagefude {
-
-/// One colour: red, green, blue and alpha side by side, so that a lookup works on all four at once.
-using Rgba = float __attribute__((vector_size(16)));
 
 /// How far a picture of one pixel reaches on a strip: the change of (u, v) from this pixel to the
 /// next one to the right (x) and to the next one below (y).
@@ -18,7 +16,8 @@ struct Footprint {
 /// A painted gradient as the brush pass reads it (002 §3.1): scene-linear colour with associated
 /// alpha; v is the tone, 1 on the top edge and 0 on the bottom edge, clamped; u runs round and
 /// repeats with period 1. Holds a chain of box-filtered half-size copies, each of which repeats in
-/// u like the first, and the mean colour of every row. Movable, about 1.4 x 16 bytes a pixel.
+/// u like the first, and the mean colour of every row; and the strip taken apart into grain and
+/// colours. Movable, about 30 bytes a pixel.
 struct Strip {
   struct Level {
     int width = 0, height = 0;
@@ -29,6 +28,7 @@ struct Strip {
   std::vector<Level> levels;  ///< full size first, 1 x 1 last
   Plane<Rgba> pool;           ///< all levels' texels, one after the other
   Plane<Rgba> means;          ///< the full size's row means, brightest first
+  StripGrain grain;
 
   int width() const { return levels.front().width; }
   int height() const { return levels.front().height; }

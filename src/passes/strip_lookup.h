@@ -120,14 +120,18 @@ inline void probeEllipse(float ux, float vx, float uy, float vy, float width, fl
   stepV = step > 0.0f ? dv * step / height : 0.0f;
 }
 
-inline StripProbe stripProbe(const Strip& strip, const Footprint& f, int maxProbes) {
-  const float w = static_cast<float>(strip.width()), h = static_cast<float>(strip.height());
+inline StripProbe probeTexels(int width, int height, const Footprint& f, int maxProbes) {
+  const float w = static_cast<float>(width), h = static_cast<float>(height);
   StripProbe probe;
   float probes;
   probeEllipse(f.ux * w, f.vx * h, f.uy * w, f.vy * h, w, h, static_cast<float>(maxProbes), probes,
                probe.lod, probe.stepU, probe.stepV);
   probe.count = static_cast<int>(probes);
   return probe;
+}
+
+inline StripProbe stripProbe(const Strip& strip, const Footprint& f, int maxProbes) {
+  return probeTexels(strip.width(), strip.height(), f, maxProbes);
 }
 
 /// Mean of the probes round (u, v).

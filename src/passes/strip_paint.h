@@ -76,7 +76,8 @@ PaintedStrip paintStrip(const StripPaintParams& params);
 
 /// The parameters of the strips that are shipped: "neutral" (greys, warm in the light and cool in
 /// the shadow, to be multiplied with a surface's own colour), "soft" (wide soft strokes), "fine"
-/// (fine strokes), "cel" (flat bands with strokes at the steps). Throws UsageError for any other name.
+/// (fine strokes), "cel" (flat bands with strokes at the steps). Throws UsageError for any other
+/// name.
 StripPaintParams stripPreset(std::string_view name);
 inline constexpr std::string_view stripPresets[] = {"neutral", "soft", "fine", "cel"};
 

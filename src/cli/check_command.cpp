@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <ostream>
+
+#include "base/temp_file.h"
+#include "cli/commands.h"
+#include "sequence/check_sequence.h"
+#include "sequence/frame_range.h"
+
+namespace kagefude {
+namespace {
+
+struct CheckOptions {
+  std::string comped, unstyled, aovs, frames, look, plot, jsonFile;
+  std::string tone = "brush.tone";
+  std::vector<std::string> overrides;
+  bool json = false;
+};
+
+void print(std::ostream& out, const CheckResult& r) {
+  out << fmt::format(
+      "warp error, mean of {} frames: picture {:.5f}, unstyled tone {:.5f}, excess {:.5f}; of the "
+      "tone itself {:.5f}\n",
+      r.frames.size() - 1, r.picture, r.plain, r.excess, r.tone);
+  out << fmt::format("largest jump: {:.2f} times the median, at frame {}\n", r.jump, r.jumpFrame);
+  out << fmt::format(
+      "strokes: contrast {:.4f} ({:+.0f} % to {:+.0f} % over the sequence), grain {:.1f} pixels "
+      "({:+.0f} % to {:+.0f} %)\n",
+      r.contrast, 100 * (r.contrastLow - 1), 100 * (r.contrastHigh - 1), r.grain,
+      100 * (r.grainLow - 1), 100 * (r.grainHigh - 1));
+}
+
+void check(const CheckOptions& options, Console& console) {
+  CheckRequest request;
+  request.comped = FramePattern(options.comped);
+  request.aovs = FramePattern(options.aovs.empty() ? options.comped : options.aovs);
+  if (!options.unstyled.empty()) request.unstyled = FramePattern(options.unstyled);
+  if (!options.frames.empty()) request.frames = parseFrames(options.frames);
+  request.tone = options.tone;
+  request.look = readLook(options.look, options.overrides);
+  const CheckResult result = checkSequence(request);
+  if (!options.plot.empty()) plotCheck(result, options.plot);
+  if (!options.jsonFile.empty()) writeFileAtomically(options.jsonFile, checkJson(result) + "\n");
+  if (options.json)
+    console.out << checkJson(result) << "\n";
+  else
+    print(console.out, result);
+}
+
+}  // namespace
+
+void addCheckCommand(CLI::App& app, Console& console, int&) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = app.add_subcommand(
+      "check",
+      "Measure how still the strokes of a finished sequence hold, along its motion vectors");
+  command->add_option("sequence", options->comped, "finished frames, such as out/shot.####.exr")
+      ->required();
+  command->add_option(
+      "--aovs", options->aovs,
+      "rendered frames with motion vectors, positions and ids (the sequence itself, "
+      "comped with output.passthrough)");
+  command->add_option("--unstyled", options->unstyled,
+                      "the same frames comped with brush.contrast=0 (found from each object's mean "
+                      "colours at each tone)");
+  command->add_option("--frames", options->frames, "such as 1-24; without it all that are on disk");
+  command->add_option("--tone", options->tone,
+                      "layer of the finished frames that holds the tone "
+                      "(brush.tone)");
+  command->add_option("--look", options->look, "look that names the passes of other renderers");
+  command->add_option("--set", options->overrides, "section.key=value, over the look's own");
+  command->add_option("--plot", options->plot, "PNG to draw the curves into");
+  command->add_option("--write-json", options->jsonFile, "file to write the numbers into");
+  command->add_flag("--json", options->json, "print the numbers as JSON");
+  command->callback([options, &console] { check(*options, console); });
+}
+
+}  // namespace kagefude

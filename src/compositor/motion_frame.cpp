@@ -1,0 +1,115 @@
+#include "compositor/motion_frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "frame/cryptomatte.h"
+#include "frame/read_channels.h"
+#include "image/parallel.h"
+
+namespace kagefude {
+namespace {
+
+constexpr int dominantRanks = 2;
+
+Vec3Plane expectedPositions(const MotionFrame& now, const MotionFrame& before) {
+  std::map<uint32_t, Transform> moves;  // worldBefore from worldNow
+  for (const auto& [id, worldNow] : now.worldFromObject) {
+    const auto found = before.worldFromObject.find(id);
+    if (found != before.worldFromObject.end()) moves[id] = found->second * worldNow.inverse();
+  }
+  Vec3Plane expected(now.ids.width(), now.ids.height());
+  parallelRows(now.ids.height(), [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < now.ids.width(); ++x) {
+        const V3f p = now.position.view()(x, y);
+        const auto move = moves.find(now.ids(x, y));
+        expected.set(x, y, move == moves.end() ? p : V3f(move->second.point(V3d(p))));
+      }
+  });
+  return expected;
+}
+
+bool sameMatrix(const Transform& a, const Transform& b) {
+  return std::equal(&a.m[0][0], &a.m[0][0] + 16, &b.m[0][0]);
+}
+
+bool lensChanged(const MotionFrame& now, const MotionFrame& before) {
+  return now.clipFromCamera && before.clipFromCamera &&
+         !sameMatrix(*now.clipFromCamera, *before.clipFromCamera);
+}
+
+/// Motion to where the camera before saw the expected positions.
+void projectMotion(const MotionFrame& before, Vec3View expected, Floats& motionX, Floats& motionY) {
+  const Transform clipFromWorld = *before.clipFromCamera * *before.cameraFromWorld;
+  const Window &data = before.dataWindow, &display = before.displayWindow;
+  motionX = Floats(expected.width(), expected.height());
+  motionY = Floats(expected.width(), expected.height());
+  parallelRows(expected.height(), [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < expected.width(); ++x) {
+        const V3d clip = clipFromWorld.point(V3d(expected(x, y)));
+        const double column = display.x - data.x + (0.5 + 0.5 * clip.x) * display.width - 0.5;
+        const double row = display.y - data.y + (0.5 - 0.5 * clip.y) * display.height - 0.5;
+        motionX(x, y) = static_cast<float>(column - x);
+        motionY(x, y) = static_cast<float>(y - row);
+      }
+  });
+}
+
+}  // namespace
+
+MotionFrame readMotionFrame(const Look& look, const std::filesystem::path& path, int frame) {
+  const FramePlan plan = planFrame(look, path, frame);
+  const Aov vector = requireAov(plan.image, look.frame, AovKind::vector);
+  MotionFrame result;
+  ChannelReader reader(plan.image);
+  reader.floats(plan.position.channels.at(0), result.position.x);
+  reader.floats(plan.position.channels.at(1), result.position.y);
+  reader.floats(plan.position.channels.at(2), result.position.z);
+  reader.floats(vector.channels.at(0), result.motionX);
+  reader.floats(vector.channels.at(1), result.motionY);
+  CryptomattePlanes matte;
+  Floats index;
+  if (plan.idSource == IdSource::cryptomatte)
+    matte = requestCryptomatte(reader, plan.objectId.name, dominantRanks);
+  else
+    reader.floats(plan.objectId.channels.at(0), index);
+  reader.read();
+  result.ids = index.empty() ? dominantIds(matte) : roundIndices(index);
+  result.dataWindow = plan.image.dataWindow;
+  result.displayWindow = plan.image.displayWindow;
+  if (!plan.sidecar) return result;
+  result.cameraFromWorld = plan.sidecar->camera.cameraFromWorld;
+  result.clipFromCamera = plan.sidecar->camera.clipFromCamera;
+  for (const SidecarObject& object : plan.sidecar->objects)
+    result.worldFromObject.emplace(
+        plan.idSource == IdSource::index ? object.index : object.cryptoId, object.worldFromObject);
+  return result;
+}
+
+PreviousPlaces previousPlaces(const MotionFrame& now, const MotionFrame& before) {
+  if (now.ids.width() != before.ids.width() || now.ids.height() != before.ids.height())
+    throw InputError(fmt::format("neighbouring frames are of {}x{} and {}x{} pixels",
+                                 before.ids.width(), before.ids.height(), now.ids.width(),
+                                 now.ids.height()));
+  MotionInput in{now.ids, before.ids, now.motionX, now.motionY, now.position, {}, {}};
+  const bool described = !now.worldFromObject.empty() && !before.worldFromObject.empty();
+  Vec3Plane expected;
+  Floats motionX, motionY;
+  if (described) {
+    expected = expectedPositions(now, before);
+    in.expected = expected;
+    in.previousPosition = before.position;
+    if (lensChanged(now, before)) {
+      projectMotion(before, expected, motionX, motionY);
+      in.motionX = motionX;
+      in.motionY = motionY;
+    }
+  }
+  return findPreviousPlaces(in);
+}
+
+}  // namespace kagefude

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+
+#include "compositor/frame_plan.h"
+#include "passes/warp_error.h"
+
+namespace kagefude {
+
+/// What of a rendered frame is needed to follow its surfaces to the frame before.
+struct MotionFrame {
+  Labels ids;
+  Vec3Plane position;
+  Floats motionX, motionY;  ///< pixels to the previous frame's place, y upward
+  std::map<uint32_t, Transform> worldFromObject;  ///< of the objects that a sidecar describes
+  std::optional<Transform> cameraFromWorld, clipFromCamera;
+  Window dataWindow, displayWindow;
+};
+
+/// Reads object ids, positions and motion vectors of a frame. Throws InputError that names what is
+/// missing.
+MotionFrame readMotionFrame(const Look& look, const std::filesystem::path& path, int frame);
+
+/// Where every pixel's surface was in the frame before: findPreviousPlaces, with occlusions within
+/// one object found by moving each position back with its object's matrices; an object that has
+/// none in both frames is taken to have stood still. Without sidecars: by ids alone. Throws
+/// InputError when the frames differ in size.
+PreviousPlaces previousPlaces(const MotionFrame& now, const MotionFrame& before);
+
+}  // namespace kagefude

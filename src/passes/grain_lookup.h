@@ -1,0 +1,90 @@
+#pragma once
+
+#include "passes/strip_lookup.h"
+
+// Lookups of a strip taken apart, inline for the brush pass's inner loops.
+namespace kagefude {
+
+/// Where a lookup lies in one level of the grain: its texel and the shares of the next ones.
+struct GrainPlace {
+  int texel = 0;
+  float fx = 0, fy = 0;
+};
+
+/// u in turns; w in heights of the grain, running back and forth: rows have no seam to hide.
+inline GrainPlace grainPlace(float u, float w, int width, int height, int offset) {
+  const float twice = 2.0f * fractionOf(0.5f * w);
+  const RowPlace row = rowPlace(twice > 1.0f ? twice - 1.0f : 1.0f - twice, height);
+  const ColumnPlace column = columnPlace(fractionOf(u), width);
+  return {offset + row.upper * width + column.left, column.fraction, row.fraction};
+}
+
+/// The grain between four packed texels.
+inline float grainBetween(uint32_t four, float fx, float fy) {
+  const float a = static_cast<float>(static_cast<int>(four & 255u));
+  const float b = static_cast<float>(static_cast<int>(four >> 8 & 255u));
+  const float c = static_cast<float>(static_cast<int>(four >> 16 & 255u));
+  const float d = static_cast<float>(static_cast<int>(four >> 24));
+  const float top = a + (b - a) * fx, bottom = c + (d - c) * fx;
+  return (top + (bottom - top) * fy - 128.0f) * StripGrain::perStep;
+}
+
+inline float grainAt(const StripGrain& grain, size_t level, float u, float w) {
+  const StripGrain::Level& l = grain.levels[level];
+  const GrainPlace place = grainPlace(u, w, l.width, l.height, l.offset);
+  return grainBetween(grain.pool.row(0)[place.texel], place.fx, place.fy);
+}
+
+inline StripProbe grainProbe(const StripGrain& grain, const Footprint& f, int maxProbes) {
+  return probeTexels(grain.levels.front().width, grain.levels.front().height, f, maxProbes);
+}
+
+/// Mean of the probes round (u, w), each between two levels.
+inline float lookUpGrain(const StripGrain& grain, float u, float w, const StripProbe& probe) {
+  const float last = static_cast<float>(grain.levels.size() - 1);
+  const float lod = probe.lod < last ? probe.lod : last;
+  const auto fine = static_cast<size_t>(lod);
+  const float coarser = lod - static_cast<float>(fine);
+  const float middle = 0.5f * static_cast<float>(probe.count - 1);
+  float sum = 0;
+  for (int i = 0; i < probe.count; ++i) {
+    const float offset = static_cast<float>(i) - middle;
+    const float pu = u + offset * probe.stepU, pw = w + offset * probe.stepV;
+    sum += grainAt(grain, fine, pu, pw) * (1.0f - coarser);
+    if (coarser > 0.0f) sum += grainAt(grain, fine + 1, pu, pw) * coarser;
+  }
+  return sum / static_cast<float>(probe.count);
+}
+
+/// Tone levels by how many of the finest level's rows one pixel's change of tone crosses.
+inline int toneLevel(float change, int rows, int lastLevel) {
+  const float crossed = change * static_cast<float>(rows);
+  const int level = crossed > 1.0f ? static_cast<int>(log2Of(crossed) + 0.5f) : 0;
+  return level < lastLevel ? level : lastLevel;
+}
+
+/// Column of the colours left of a grain, and the share of the next one.
+inline float grainColumn(float grain) {
+  const float at = (grain + StripGrain::reach) *
+                   (static_cast<float>(StripGrain::columns - 1) / (2.0f * StripGrain::reach));
+  const float last = static_cast<float>(StripGrain::columns - 1);
+  const float above = at > 0.0f ? at : 0.0f;
+  return above < last ? above : last;
+}
+
+/// Colour of a grain at a tone; `change` is the tone's change over the pixel.
+inline Rgba grainColour(const StripGrain& grain, float tone, float value, float change) {
+  const int last = static_cast<int>(grain.toneLevels.size()) - 1;
+  const int level = toneLevel(change, grain.toneLevels.front().height, last);
+  const StripGrain::Level& l = grain.toneLevels[static_cast<size_t>(level)];
+  const RowPlace row = rowPlace(tone, l.height);
+  const float at = grainColumn(value);
+  const int whole = static_cast<int>(at);
+  const int left = whole < StripGrain::columns - 1 ? whole : StripGrain::columns - 2;
+  const Rgba* upper = grain.colours.row(0) + l.offset + row.upper * StripGrain::columns + left;
+  const Rgba* lower = grain.colours.row(0) + l.offset + row.lower * StripGrain::columns + left;
+  return mixFour(upper[0], upper[1], lower[0], lower[1], at - static_cast<float>(left),
+                 row.fraction);
+}
+
+}  // namespace kagefude

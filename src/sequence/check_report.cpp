@@ -1,0 +1,53 @@
+#include <nlohmann/json.hpp>
+
+#include "frame/draw_plot.h"
+#include "sequence/check_sequence.h"
+
+namespace kagefude {
+namespace {
+
+// A value that is not known becomes null.
+nlohmann::ordered_json frameJson(const CheckedFrame& f) {
+  return {{"frame", f.frame},       {"compared", f.compared}, {"picture", f.picture},
+          {"unstyled", f.plain},    {"tone", f.tone},         {"excess", f.excess()},
+          {"contrast", f.contrast}, {"grain", f.grain}};
+}
+
+}  // namespace
+
+std::string checkJson(const CheckResult& r) {
+  nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+  for (const CheckedFrame& frame : r.frames) frames.push_back(frameJson(frame));
+  const nlohmann::ordered_json json = {
+      {"warp_error",
+       {{"picture", r.picture}, {"unstyled", r.plain}, {"tone", r.tone}, {"excess", r.excess}}},
+      {"jump", {{"largest_to_median", r.jump}, {"frame", r.jumpFrame}, {"median", r.median}}},
+      {"strokes",
+       {{"contrast", {{"median", r.contrast}, {"low", r.contrastLow}, {"high", r.contrastHigh}}},
+        {"grain", {{"median", r.grain}, {"low", r.grainLow}, {"high", r.grainHigh}}}}},
+      {"frames", frames}};
+  return json.dump(2);
+}
+
+void plotCheck(const CheckResult& result, const std::filesystem::path& path) {
+  std::vector<int> places;
+  PlotCurve picture{"finished picture", {0.95f, 0.62f, 0.25f}, {}},
+      plain{"unstyled tone", {0.45f, 0.70f, 0.90f}, {}},
+      excess{"excess", {0.60f, 0.85f, 0.45f}, {}};
+  PlotCurve contrast{"contrast of the strokes", {0.90f, 0.50f, 0.60f}, {}};
+  PlotCurve grain{"grain in pixels", {0.75f, 0.65f, 0.95f}, {}};
+  for (const CheckedFrame& frame : result.frames) {
+    places.push_back(frame.frame);
+    picture.values.push_back(frame.picture);
+    plain.values.push_back(frame.plain);
+    excess.values.push_back(frame.excess());
+    contrast.values.push_back(frame.contrast);
+    grain.values.push_back(frame.grain);
+  }
+  writePlot(path, places,
+            {{"Warp error against the frame before (scene-linear, RMS)", {picture, plain, excess}},
+             {"Strokes: RMS luminance, of the picture's", {contrast}},
+             {"Strokes: mean wavelength", {grain}}});
+}
+
+}  // namespace kagefude

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/frame_pattern.h"
+#include "look/look.h"
+
+namespace kagefude {
+
+struct CheckRequest {
+  FramePattern comped;                     ///< the finished frames: R, G, B and the tone layer
+  std::optional<FramePattern> unstyled;    ///< the same, comped with brush.contrast = 0
+  FramePattern aovs;                       ///< the rendered frames that they were made from
+  std::optional<std::vector<int>> frames;  ///< without it all finished frames on disk
+  std::string tone = "brush.tone";         ///< layer of the finished frames
+  Look look;                               ///< names of passes in the rendered frames
+};
+
+/// One finished frame against the one before. Errors are root mean squares in scene-linear colour
+/// over what both frames show; NaN for the first frame, and where nothing is seen in both.
+struct CheckedFrame {
+  int frame = 0;
+  double compared = 0;  ///< share of the surfaces' pixels that are compared
+  double picture = 0;   ///< warp error of the finished picture
+  double plain = 0;     ///< of the unstyled tone: the unstyled sequence, or without one each
+                        ///< object's mean colour over the sequence at each pixel's tone
+  double tone = 0;      ///< of the tone itself, 0..1
+  double contrast = 0;  ///< of the strokes, see StrokeMeasure
+  double grain = 0;     ///< of the strokes, pixels
+
+  double excess() const { return picture - plain; }
+};
+
+struct CheckResult {
+  std::vector<CheckedFrame> frames;
+  double picture = 0, plain = 0, tone = 0, excess = 0;  ///< means over the sequence
+  double median = 0;                                    ///< of the picture's warp errors
+  double jump = 0;                                      ///< the largest of them over the median
+  int jumpFrame = 0;                                    ///< where it is
+  double contrast = 0;                                  ///< median over the frames
+  double contrastLow = 0, contrastHigh = 0;             ///< least and most, against the median
+  double grain = 0, grainLow = 0, grainHigh = 0;
+};
+
+/// Measures how a finished sequence holds still: see CheckedFrame. Frames must follow each
+/// other: motion vectors reach
+/// back by one. Throws UsageError when fewer than two frames are asked for or one does not follow
+/// the other, InputError when a frame, a layer or a pass is missing.
+CheckResult checkSequence(const CheckRequest& request);
+
+/// The numbers as JSON, and as curves over the frames.
+std::string checkJson(const CheckResult& result);
+void plotCheck(const CheckResult& result, const std::filesystem::path& path);
+
+}  // namespace kagefude
