@@ -69,17 +69,14 @@ LightVisibility measured(const FrameLight& light, const FramePlan& plan, const L
     case ShadowMethod::pair: {
       const PairParams& params = light.passes.pair;
       const View<const uint32_t> labels = boundBy(params.bound, frame, surfaces);
-      const Floats raw = pairVisibility(planes.masks.at(0), planes.masks.at(1), labels, params);
-      return {smoothWithinSurfaces(raw, surfaces, light.passes.smooth), sure()};
+      return {pairVisibility(planes.masks.at(0), planes.masks.at(1), labels, params), sure()};
     }
     case ShadowMethod::line:
     case ShadowMethod::disc:
       return fromShape(light, planes, frame, surfaces);
     case ShadowMethod::pcf:
-    case ShadowMethod::pcss: {
-      const Floats raw = fromDepth(light, planes, frame, surfaces);
-      return {smoothWithinSurfaces(raw, surfaces, light.passes.smooth), sure()};
-    }
+    case ShadowMethod::pcss:
+      return {fromDepth(light, planes, frame, surfaces), sure()};
     case ShadowMethod::places:
       return fromPlaces(light, frame, surfaces);
     case ShadowMethod::coverage:
@@ -92,6 +89,19 @@ LightVisibility measured(const FrameLight& light, const FramePlan& plan, const L
   }
 }
 
+bool isSmoothed(const FrameLight& light) {
+  switch (light.method) {
+    case ShadowMethod::none:
+      return false;
+    case ShadowMethod::pair:
+    case ShadowMethod::pcf:
+    case ShadowMethod::pcss:
+      return true;
+    default:
+      return light.passes.smooth.allMethods;
+  }
+}
+
 }  // namespace
 
 LightVisibility lightVisibility(const FrameLight& light, const FramePlan& plan,
@@ -99,6 +109,8 @@ LightVisibility lightVisibility(const FrameLight& light, const FramePlan& plan,
                                 View<const uint32_t> surfaces, StageSink* sink) {
   if (sink) showMasks(light, planes, surfaces, *sink);
   LightVisibility result = measured(light, plan, planes, frame, surfaces);
+  if (isSmoothed(light))
+    result.visibility = smoothWithinSurfaces(result.visibility, surfaces, light.passes.smooth);
   if (sink) sink->number(fmt::format("visibility.{}", light.name), result.visibility);
   return result;
 }
