@@ -39,11 +39,7 @@ class CasterFiles:
 
     def _write_mesh(self, item):
         """The path of the mesh's file relative to the frames, or None for a mesh without faces."""
-        mesh = item.to_mesh()
-        try:
-            text = obj_text(mesh) if mesh is not None else None
-        finally:
-            item.to_mesh_clear()
+        text = evaluated_text(item)
         if text is None:
             return None
         data = text.encode("ascii")
@@ -57,6 +53,19 @@ class CasterFiles:
                 file.write(data)
             os.replace(part, path)
         return f"{self.name}/{name}"
+
+
+def evaluated_text(item):
+    """The evaluated object's triangles as OBJ, or None when it has none."""
+    # The renderer cuts the evaluated mesh itself; a copy by to_mesh has lost its normals, and then
+    # some bent quads are cut along their other diagonal.
+    if item.type == 'MESH' and not item.data.is_editmode:
+        return obj_text(item.data)
+    mesh = item.to_mesh()
+    try:
+        return obj_text(mesh) if mesh is not None else None
+    finally:
+        item.to_mesh_clear()
 
 
 def obj_text(mesh):

@@ -113,7 +113,7 @@ Floats casterVisibility(const FrameLight& light, const FramePlan& plan, const Fr
     case ShadowMethod::planar: {
       const uint32_t receiver = idOf(plan, light.receiver);
       hidden = planarShadow(surface, receiver, planeOfReceiver(surface, receiver, light.receiver),
-                            scene.meshes, placeOf(light.light), light.passes.planar);
+                            scene.meshes, scene.set, placeOf(light.light), light.passes.planar);
       break;
     }
     default:

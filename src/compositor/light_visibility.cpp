@@ -81,17 +81,13 @@ LightVisibility measured(const FrameLight& light, const FramePlan& plan, const L
   const auto sure = [&] { return Floats(frame.width, frame.height, 1.0f); };
   switch (light.method) {
     case ShadowMethod::pair:
-      return {smoothWithinSurfaces(fromPair(light, planes, frame, surfaces), surfaces,
-                                   light.passes.smooth),
-              sure()};
+      return {fromPair(light, planes, frame, surfaces), sure()};
     case ShadowMethod::line:
     case ShadowMethod::disc:
       return fromShape(light, planes, frame, surfaces);
     case ShadowMethod::pcf:
-    case ShadowMethod::pcss: {
-      const Floats raw = fromDepth(light, planes, frame, surfaces);
-      return {smoothWithinSurfaces(raw, surfaces, light.passes.smooth), sure()};
-    }
+    case ShadowMethod::pcss:
+      return {fromDepth(light, planes, frame, surfaces), sure()};
     case ShadowMethod::places:
       return fromPlaces(light, frame, surfaces);
     case ShadowMethod::coverage:
@@ -104,6 +100,19 @@ LightVisibility measured(const FrameLight& light, const FramePlan& plan, const L
   }
 }
 
+bool isSmoothed(const FrameLight& light) {
+  switch (light.method) {
+    case ShadowMethod::none:
+      return false;
+    case ShadowMethod::pair:
+    case ShadowMethod::pcf:
+    case ShadowMethod::pcss:
+      return true;
+    default:
+      return light.passes.smooth.allMethods;
+  }
+}
+
 }  // namespace
 
 LightVisibility lightVisibility(const FrameLight& light, const FramePlan& plan,
@@ -111,6 +120,8 @@ LightVisibility lightVisibility(const FrameLight& light, const FramePlan& plan,
                                 View<const uint32_t> surfaces, StageSink* sink) {
   if (sink) showMasks(light, planes, surfaces, *sink);
   LightVisibility result = measured(light, plan, planes, frame, surfaces);
+  if (isSmoothed(light))
+    result.visibility = smoothWithinSurfaces(result.visibility, surfaces, light.passes.smooth);
   if (sink) sink->number(fmt::format("visibility.{}", light.name), result.visibility);
   return result;
 }

@@ -12,8 +12,9 @@ struct LightVisibility {
 };
 
 /// One light's visibility by the method chosen for it. What pair, pcf and pcss give is smoothed
-/// within surfaces (002 section 4.2.2); disc and line are smooth of themselves, and a window would
-/// only blur their contacts. `sink` may be null.
+/// within surfaces (002 section 4.2.2). Other methods only where smooth.all_methods asks for it:
+/// disc, line and places are smooth of themselves, and a window would blur their contacts; the
+/// casters' other methods draw clean edges. `sink` may be null.
 LightVisibility lightVisibility(const FrameLight& light, const FramePlan& plan,
                                 const LightPlanes& planes, const FramePlanes& frame,
                                 View<const uint32_t> surfaces, StageSink* sink);

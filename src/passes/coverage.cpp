@@ -14,8 +14,8 @@ namespace {
 class CoverageShader : TileShader {
  public:
   CoverageShader(const SeenSurface& surface, const ShadowWedges& wedges, const ShadowWedges& sight,
-                 const CoverageParams& params, View<float> result)
-      : TileShader(surface, wedges, params), sampler_(surface, sight), result_(result) {}
+                 const LightPlace& light, const CoverageParams& params, View<float> result)
+      : TileShader(surface, wedges, params), sampler_(surface, sight, light), result_(result) {}
 
   void tile(int x0, int y0) {
     const PixelBoxes boxes(surface_, x0, y0, false);
@@ -58,8 +58,9 @@ class CoverageShader : TileShader {
       return;
     }
     sampler_.sample(points_);
-    if (points_.present != 0 && expected.contains(points_.box(points_.present)))
-      result_(x, y) = shareOf(cut(list, points_.present));
+    const uint64_t open = points_.present & ~ownDark();
+    if (open != 0 && expected.contains(points_.box(open)))
+      result_(x, y) = shareOf(cut(list, open) | ownDark());
     else
       result_(x, y) = gatherAndCut();
   }
@@ -75,6 +76,7 @@ class CoverageShader : TileShader {
 
   /// Settles a flat pixel by its corners, and drops the wedges that it lies apart from.
   BoxState judge(const FlatPixel& flat, const WedgeList& list) {
+    if (flat.facesAway && params_.selfShadow) return BoxState::inside;
     std::array<V3f, 4> corners = flat.corners;
     for (V3f& corner : corners) corner -= wedges_.apex();
     size_t kept = 0;
@@ -92,8 +94,9 @@ class CoverageShader : TileShader {
   /// small box.
   float gatherAndCut() {
     const uint64_t before = points_.beforeGap();
-    uint64_t shaded = 0;
-    for (uint64_t group : {before, points_.present & ~before}) {
+    uint64_t shaded = ownDark();
+    const uint64_t open = points_.present & ~shaded;
+    for (uint64_t group : {before & open, open & ~before}) {
       if (group == 0) continue;
       wedges_.gather(points_.box(group), undecided, near_);
       indices_.resize(static_cast<size_t>(near_.count));
@@ -121,6 +124,9 @@ class CoverageShader : TileShader {
     }
     return shaded;
   }
+
+  /// Sub-pixels whose own triangle hides the light from them, wherever lifting would put them.
+  uint64_t ownDark() const { return params_.selfShadow ? points_.facingAway : 0; }
 
   float shareOf(uint64_t shaded) const {
     if (points_.present == 0) return 0.0f;
@@ -156,7 +162,7 @@ Floats shadowCoverage(const SeenSurface& surface, const CasterSet& casters, cons
   const ShadowWedges wedges(casters, light, surface.rays.eye);
   const ShadowWedges sight(casters, sightOf(surface.rays), surface.rays.eye);
   parallelRows(tiles(surface.ids.height), 2, [&](int first, int end) {
-    CoverageShader shader(surface, wedges, sight, params, result);
+    CoverageShader shader(surface, wedges, sight, light, params, result);
     for (int row = first; row < end; ++row)
       for (int column = 0; column < tiles(surface.ids.width); ++column)
         shader.tile(column * coverageTile, row * coverageTile);

@@ -13,7 +13,7 @@ namespace kagefude {
 struct CoverageParams {
   bool selfShadow = true;
   float strength = 1.0f;
-  float bias = 0.002f;  ///< pixels
+  float bias = 0.0005f;  ///< pixels
 };
 
 inline constexpr std::array coverageParameters = {

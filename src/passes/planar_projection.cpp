@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "image/parallel.h"
 #include "passes/pixel_boxes.h"
+#include "passes/surface_sampler.h"
 
 namespace kagefude {
 namespace {
@@ -48,6 +49,62 @@ uint64_t coveredBy(const WedgeList& list, const CameraRays& rays, int x, int y) 
   }
   return covered;
 }
+
+/// Draws the flattened casters tile by tile.
+class PlanarShader {
+ public:
+  PlanarShader(const SeenSurface& surface, uint32_t receiver, const ShadowWedges& flat,
+               const ShadowWedges& sight, const LightPlace& light, float alpha, View<float> result)
+      : surface_(surface),
+        receiver_(receiver),
+        flat_(flat),
+        sampler_(surface, sight, light),
+        alpha_(alpha),
+        result_(result) {}
+
+  void tile(int x0, int y0, int x1, int y1) {
+    const CameraRays& rays = surface_.rays;
+    const auto corner = [&](int x, int y) {
+      return V3f(rays.orthographic ? rays.origin(x, y) : rays.direction(x, y));
+    };
+    flat_.gatherSeen({corner(x0, y0), corner(x1, y0), corner(x1, y1), corner(x0, y1)}, list_);
+    if (list_.empty()) return;
+    sampler_.startTile(x0, y0, x1, y1);
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x)
+        if (surface_.ids(x, y) == receiver_ && surface_.isSurface(x, y))
+          result_(x, y) = alpha_ * share(x, y);
+  }
+
+ private:
+  float share(int x, int y) {
+    const uint64_t covered = coveredBy(list_, surface_.rays, x, y);
+    if (covered == 0 || covered == ~uint64_t{0}) return covered == 0 ? 0.0f : 1.0f;
+    uint64_t shows = showsReceiver(x, y);
+    if (shows == 0) shows = ~uint64_t{0};
+    return static_cast<float>(std::popcount(covered & shows)) /
+           static_cast<float>(std::popcount(shows));
+  }
+
+  uint64_t showsReceiver(int x, int y) {
+    FlatPixel flat;
+    sampler_.locate(x, y, 0.0f, flat);
+    sampler_.sample(points_);
+    uint64_t shows = 0;
+    for (int k = 0; k < 64; ++k)
+      if (points_.id[k] == receiver_) shows |= points_.present & (uint64_t{1} << k);
+    return shows;
+  }
+
+  const SeenSurface& surface_;
+  uint32_t receiver_;
+  const ShadowWedges& flat_;
+  SurfaceSampler sampler_;
+  float alpha_;
+  View<float> result_;
+  WedgeList list_;
+  SubpixelPoints points_;
+};
 
 }  // namespace
 
@@ -114,32 +171,22 @@ std::vector<CasterMesh> projectedOnPlane(std::span<const CasterMesh> casters,
 }
 
 Floats planarShadow(const SeenSurface& surface, uint32_t receiverId, const ReceiverPlane& plane,
-                    std::span<const CasterMesh> casters, const LightPlace& light,
-                    const PlanarParams& params) {
+                    std::span<const CasterMesh> casters, const CasterSet& set,
+                    const LightPlace& light, const PlanarParams& params) {
   surface.check();
   Floats result(surface.ids.width, surface.ids.height, 0.0f);
   std::vector<CasterMesh> others;
   for (const CasterMesh& mesh : casters)
     if (mesh.id != receiverId) others.push_back(mesh);
-  const CasterSet flat(projectedOnPlane(others, plane, light));
+  const CasterSet projected(projectedOnPlane(others, plane, light));
   const CameraRays& rays = surface.rays;
-  const ShadowWedges sight(flat, {rays.orthographic, rays.eye, rays.direction0}, rays.eye);
+  const LightPlace eye{rays.orthographic, rays.eye, rays.direction0};
+  const ShadowWedges flat(projected, eye, rays.eye);
+  const ShadowWedges sight(set, eye, rays.eye);
   parallelRows(result.height(), coverageTile, [&](int first, int end) {
-    WedgeList list;
-    for (int x0 = 0; x0 < result.width(); x0 += coverageTile) {
-      const int x1 = std::min(x0 + coverageTile, result.width());
-      const auto corner = [&](int x, int y) {
-        return V3f(rays.orthographic ? rays.origin(x, y) : rays.direction(x, y));
-      };
-      sight.gatherSeen({corner(x0, first), corner(x1, first), corner(x1, end), corner(x0, end)},
-                       list);
-      if (list.empty()) continue;
-      for (int y = first; y < end; ++y)
-        for (int x = x0; x < x1; ++x)
-          if (surface.ids(x, y) == receiverId && surface.isSurface(x, y))
-            result(x, y) =
-                params.alpha * static_cast<float>(std::popcount(coveredBy(list, rays, x, y))) / 64;
-    }
+    PlanarShader shader(surface, receiverId, flat, sight, light, params.alpha, result);
+    for (int x0 = 0; x0 < result.width(); x0 += coverageTile)
+      shader.tile(x0, first, std::min(x0 + coverageTile, result.width()), end);
   });
   return result;
 }

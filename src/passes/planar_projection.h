@@ -42,12 +42,14 @@ ReceiverPlane planeOfReceiver(const SeenSurface& surface, uint32_t id, const std
 std::vector<CasterMesh> projectedOnPlane(std::span<const CasterMesh> casters,
                                          const ReceiverPlane& plane, const LightPlace& light);
 
-/// Opacity of the flat shadow at each pixel of the receiver, 0 to alpha: the share of 8x8
-/// sub-pixels whose ray passes through a flattened caster. A sub-pixel counts once however many
-/// triangles cover it, as with the lecture's stencil. Casters with the receiver's own ID are left
-/// out; other pixels are 0. The visibility is 1 - a; the strip gives the shadow its colour.
+/// Opacity of the flat shadow at each pixel of the receiver, 0 to alpha: of the 8x8 sub-pixels that
+/// show the receiver, the share whose ray passes through a flattened caster. Sub-pixels that show
+/// a caster before it count nowhere, or a caster's own foot would darken its outline. A sub-pixel
+/// counts once however many triangles cover it, as with the lecture's stencil. Casters with the
+/// receiver's own ID are left out; other pixels are 0. The visibility is 1 - a; the strip gives
+/// the shadow its colour. `set` holds the casters.
 Floats planarShadow(const SeenSurface& surface, uint32_t receiverId, const ReceiverPlane& plane,
-                    std::span<const CasterMesh> casters, const LightPlace& light,
-                    const PlanarParams& params);
+                    std::span<const CasterMesh> casters, const CasterSet& set,
+                    const LightPlace& light, const PlanarParams& params);
 
 }  // namespace kagefude

@@ -97,13 +97,13 @@ struct Region {
 class VolumeCounter {
  public:
   VolumeCounter(const SeenSurface& surface, const std::vector<Face>& faces,
-                const ShadowWedges& wedges, const ShadowWedges& sight, const VolumeParams& params,
-                View<float> result)
+                const ShadowWedges& wedges, const ShadowWedges& sight, const LightPlace& light,
+                const VolumeParams& params, View<float> result)
       : surface_(surface),
         faces_(faces),
         wedges_(wedges),
         params_(params),
-        sampler_(surface, sight),
+        sampler_(surface, sight, light),
         result_(result) {}
 
   /// Halves the region, with the faces that may be met in it, down to pixels.
@@ -198,8 +198,8 @@ class VolumeCounter {
     sampler_.startTile(x, y, x + 1, y + 1);
     sampler_.locate(x, y, static_cast<float>(lift), flat);
     sampler_.sample(points);
-    int hidden = 0;
-    for (uint64_t rest = points.present; rest != 0; rest &= rest - 1) {
+    int hidden = std::popcount(points.facingAway);
+    for (uint64_t rest = points.present & ~points.facingAway; rest != 0; rest &= rest - 1) {
       const int k = std::countr_zero(rest);
       const V3d point(points.x[k], points.y[k], points.z[k]);
       hidden += shaded(met, x + (k % 8 + 0.5) / 8, y + (k / 8 + 0.5) / 8, point, 0);
@@ -248,7 +248,7 @@ Floats shadowVolume(const SeenSurface& surface, std::span<const CasterMesh> mesh
   std::vector<int> all(faces.size());
   for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   parallelRows(height, 32, [&](int first, int end) {
-    VolumeCounter counter(surface, faces, wedges, sight, params, result);
+    VolumeCounter counter(surface, faces, wedges, sight, light, params, result);
     counter.count({0, first, width, end}, all);
   });
   return result;

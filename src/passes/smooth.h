@@ -7,11 +7,16 @@ namespace kagefude {
 
 struct SmoothParams {
   int h = 2;  ///< half width of the window, pixels; 0 = no smoothing
+  bool allMethods = false;
 };
 
 inline constexpr Parameter smoothParameters[] = {
     number<&SmoothParams::h>("h", 0, 256, "pixels",
                              "Half width of the window that is averaged; 0 turns smoothing off."),
+    plain<&SmoothParams::allMethods>(
+        "all_methods",
+        "Also smooths shadow methods that are left crisp or soft as they are without it: line, "
+        "disc, places, coverage, volume, planar, blob."),
 };
 inline constexpr ParameterTable smoothTable{
     "smooth", "Averages visibility over a window, within each surface.",

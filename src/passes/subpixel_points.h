@@ -13,8 +13,14 @@ struct SubpixelPoints {
   alignas(64) float y[64];
   alignas(64) float z[64];
   uint32_t id[64];
-  uint64_t present = 0;  ///< sub-pixels that show a surface
+  uint64_t present = 0;     ///< sub-pixels that show a surface
+  uint64_t facingAway = 0;  ///< of them, those on the dark side of a caster's triangle
 
+  void place(int k, const V3f& point) {
+    x[k] = point.x;
+    y[k] = point.y;
+    z[k] = point.z;
+  }
   /// Box round the points of a group that is not empty.
   PointBox box(uint64_t group) const;
   /// The present points before the widest gap in distance from the eye, when it is a third of

@@ -13,8 +13,8 @@ enum class BlobBlend { alpha, multiply };
 inline constexpr std::array<std::string_view, 2> blobBlends = {"alpha", "multiply"};
 
 struct BlobParams {
-  float width = 1.2f;   ///< of the object's size across its heading
-  float length = 1.2f;  ///< of the object's size along its heading
+  float width = 1.5f;   ///< of the object's size across its heading
+  float length = 1.5f;  ///< of the object's size along its heading
   float heading = 0;    ///< turns, added to the object's own
   float reach = 0.05f;  ///< of the blob's larger side
   float strength = 0.6f;

@@ -1,10 +1,13 @@
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
+#include <malloc.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <limits>
+#include <string>
 
 #include "passes/coverage.h"
 
@@ -181,6 +184,29 @@ void coverage(benchmark::State& state) {
   }
 }
 
+/// A line of /proc/self/status, in bytes.
+double memoryOf(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(key)) return 1024 * std::stod(line.substr(key.size()));
+  return 0;
+}
+
+/// The process's peak over what it held before, with the tree, the volumes and the result, and
+/// with the planes that the pass reads, by pixels.
+void coverageMemory(benchmark::State& state) {
+  const Frame& frame = frameOf(static_cast<int>(state.range(0)));
+  constexpr double pixels = double(width) * height, inputs = 7 * sizeof(float);
+  for (auto _ : state) {
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << "5";  // starts the peak anew
+    const double before = memoryOf("VmRSS:");
+    const CasterSet casters(frame.meshes);
+    benchmark::DoNotOptimize(shadowCoverage(frame.seen(), casters, light, {}));
+    state.counters["bytes_per_pixel"] = (memoryOf("VmHWM:") - before) / pixels + inputs;
+  }
+}
+
 void embree64(benchmark::State& state) {
   const Frame& frame = frameOf(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(tracedCoverage(frame));
@@ -198,6 +224,10 @@ void masksOfNinePlaces(benchmark::State& state) {
   }
 }
 
+<<<<<<< HEAD
+=======
+BENCHMARK(coverageMemory)->Arg(20000)->Iterations(1);
+>>>>>>> casters
 BENCHMARK(coverage)
     ->Arg(20000)
     ->Arg(200000)

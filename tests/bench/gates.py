@@ -57,6 +57,12 @@ def main(path):
             missed += not kept
             row(bench["name"].removesuffix("/iterations:1"), f"{bench['label']} (times faster)",
                 bench["ratio"], bench["gate"], kept)
+        if "bytes_per_pixel" in bench:
+            kept = 0 < bench["bytes_per_pixel"] <= 200
+            missed += not kept
+            print(f"| coverage, 20,000 triangles, 2K: peak memory | | "
+                  f"{bench['bytes_per_pixel']:.0f} bytes a pixel | 200 | "
+                  f"{'kept' if kept else 'MISSED'} |")
         for counter, label, gate in (("ratio_oiio", "EXR zip read, 20 channels", 3.5),
                                      ("ratio_core", "EXR zip read, against openexr:core", 2)):
             if counter in bench:

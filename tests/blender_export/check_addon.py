@@ -39,22 +39,30 @@ def check_panel(settings):
     options = exporter("arguments").parse_arguments(words)
     assert options.frames == [bpy.context.scene.frame_current], options
     assert (options.masks.kind, options.masks.count, options.offset) == ("disc", 9, None), options
+    assert not options.casters, options
+    settings.use_casters = True
     settings.frames, settings.masks, settings.offset_auto = 'SCENE', 'line', False
     settings.light = bpy.data.objects["Spot"]
     words = exporter("export_words").export_words(settings, bpy.context.scene, "a.####.exr")
     options = exporter("arguments").parse_arguments(words)
     assert options.frames == [1, 2, 3] and options.lights == ["Spot"], options
     assert (options.masks.kind, options.masks.count) == ("line", 5), options
+    assert options.casters, options
     assert abs(options.offset - 0.2) < 1e-6, options
 
 
 def check_export(output):
     background = exporter("background_export").BackgroundExport
     before = open_file_state()
-    export = background(["--output", output, "--frames=2", "--light=Spot", "--masks", "pair"])
+    export = background(["--output", output, "--frames=2", "--light=Spot", "--masks", "pair",
+                         "--casters"])
     wait_for(export)
     assert export.error is None, export.error
     assert export.percent == 100, export.percent
+    folders = [name for name in os.listdir(os.path.dirname(output)) if name.endswith(".casters")]
+    assert len(folders) == 1, folders
+    meshes = os.listdir(os.path.join(os.path.dirname(output), folders[0]))
+    assert meshes and all(name.endswith(".obj") for name in meshes), meshes
     failing = background(["--output", output, "--frames=2", "--light=Spott"])
     wait_for(failing)
     assert "did you mean 'Spot'" in failing.error, failing.error

@@ -32,7 +32,8 @@ class Item(SimpleNamespace):
 def instance(name, shape, x, **more):
     item = Item(name=name, type='MESH', hide_render=False, visible_shadow=True, shape=shape,
                 original=SimpleNamespace(name_full=name),
-                data=SimpleNamespace(as_pointer=lambda: id(shape)))
+                data=SimpleNamespace(as_pointer=lambda: id(shape), is_editmode=False,
+                                     **vars(shape)))
     for key, value in more.items():
         setattr(item, key, value)
     matrix = [[1, 0, 0, x], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
@@ -63,6 +64,19 @@ class Casters(unittest.TestCase):
             self.assertEqual(os.listdir(os.path.join(folder, "shot.casters")),
                              [os.path.basename(entries[0]["file"])])
             self.assertEqual(entries[1]["world_from_object"][0], [1.0, 0.0, 0.0, 2.0])
+
+
+    def test_the_evaluated_mesh_is_cut_as_the_renderer_cuts_it(self):
+        """A copy may have its quads cut along the other diagonal; only edit mode needs one."""
+        quad = [(0, 0, 0), (1, 0, 0), (1, 1, 0.5), (0, 1, 0)]
+        rendered, copied = mesh(quad, [(0, 1, 2), (0, 2, 3)]), mesh(quad, [(0, 1, 3), (1, 2, 3)])
+        item = instance("Quad", rendered, 0).object
+        item.shape = copied
+        self.assertEqual(casters.evaluated_text(item), casters.obj_text(rendered))
+        item.data.is_editmode = True
+        self.assertEqual(casters.evaluated_text(item), casters.obj_text(copied))
+        item.data.is_editmode, item.type = False, 'CURVE'
+        self.assertEqual(casters.evaluated_text(item), casters.obj_text(copied))
 
 
 if __name__ == "__main__":

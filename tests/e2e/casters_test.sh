@@ -36,6 +36,21 @@ for method in coverage volume places planar blob; do
 done
 expect "coverage and volume agree" "$(difference Avg coverage volume) <= 1 / 64"
 
+# The smoothing of the other methods, where it is asked for.
+for method in coverage volume places planar blob; do
+  for h in 0 3; do
+    comp plain "smooth$h" --set shadow.method=$method --set shadow.receiver=Floor \
+      --set smooth.all_methods=true --set smooth.h=$h
+  done
+  expect "$method without a window stays as it is" "$(difference Max smooth0 $method) == 0"
+  expect "$method is smoothed" "$(difference Max smooth3 $method) > 0.05"
+  expect "$method keeps its light" "($(mean smooth3) - $(mean $method)) ^ 2 < 0.0001"
+done
+
+# A caster on the receiver does not darken it round its own outline.
+expect "planar is dark where coverage is" "$(statistic Max $(visible coverage) $(visible planar) \
+  --sub --clamp:min=0:max=1) < 0.1"
+
 # Where all sub-pixels agree, so does the mask that Blender traced from the light's centre.
 oiiotool $(visible coverage) "$data/shot.0001.exr" --ch mask.Key.0.V --sub --abs \
   -o "$work/off.exr"

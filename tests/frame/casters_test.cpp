@@ -66,6 +66,53 @@ TEST_F(Casters, BadTrianglesWarn) {
       << casters.warnings[0];
 }
 
+TEST_F(Casters, HostileMeshesAreRefusedOrLeftOut) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 1\n";
+  const std::string hostile[] = {"",
+                                 std::string("\0\0v 1 2\xff\xfe", 9),
+                                 "f 1 2 3\n",
+                                 points + "f 1 2 99999999999999999999999\n",
+                                 points + "f 1 2 2147483647\n",
+                                 points + "f 1 2 -2147483648\n",
+                                 points + "f 1 2 -9\n",
+                                 points + "f 0 1 2\n",
+                                 points + "f 1 2\n",
+                                 points + "f\n",
+                                 points + "f 1//// 2/x/ 3/\n",
+                                 points + "f 1 2 3 4 5 6 7 8\n",
+                                 points + "f 1 2 3 9\n",
+                                 points + "f 1 2 4",
+                                 "v 0 0 0\nv 1 0 0\nv 0 1",
+                                 "v 1e999 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n",
+                                 "v x y z\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"};
+  for (const std::string& text : hostile) {
+    write("a.obj", text);
+    const fs::path sidecar = write("f.json", "{\"casters\":[" + entry("a.obj", moved_) + "]}");
+    try {
+      const FrameCasters casters = readCasters(sidecar, {});
+      ASSERT_EQ(casters.meshes.size(), 1u);
+      for (const auto& triangle : casters.meshes[0].triangles)
+        for (const uint32_t corner : triangle)
+          ASSERT_LT(corner, casters.meshes[0].vertices.size()) << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("a.obj"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(Casters, AMatrixThatFlattensOrThrowsOutIsWarnedOf) {
+  write("a.obj", triangle_);
+  for (const char* rows : {"[[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,1]]",
+                           "[[1e300,0,0,0],[0,1e300,0,0],[0,0,1e300,0],[0,0,0,1]]"}) {
+    const fs::path sidecar = write("f.json", "{\"casters\":[" + entry("a.obj", rows) + "]}");
+    const FrameCasters casters = readCasters(sidecar, {});
+    EXPECT_TRUE(casters.meshes[0].triangles.empty()) << rows;
+    ASSERT_EQ(casters.warnings.size(), 1u) << rows;
+    EXPECT_NE(casters.warnings[0].find("caster Cup has 1 triangles"), std::string::npos)
+        << casters.warnings[0];
+  }
+}
+
 TEST_F(Casters, NoCastersIsNoError) {
   EXPECT_TRUE(readCasters(write("f.json", "{}"), {}).meshes.empty());
 }

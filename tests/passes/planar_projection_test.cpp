@@ -66,7 +66,7 @@ TEST(PlanarProjection, MatchesTheTraceOnTheReceiver) {
     const ReceiverPlane plane = planeOfReceiver(scene.seen(), 1, "Ground");
     EXPECT_NEAR(std::fabs(plane.normal.z), 1, 1e-6);
     const Floats shadow =
-        planarShadow(scene.seen(), 1, plane, scene.meshes, light, {.alpha = 0.5f});
+        planarShadow(scene.seen(), 1, plane, scene.meshes, scene.casters(), light, {.alpha = 0.5f});
     int hidden = 0;
     for (int y = 1; y + 1 < scene.height; ++y)
       for (int x = 1; x + 1 < scene.width; ++x) {
@@ -81,6 +81,32 @@ TEST(PlanarProjection, MatchesTheTraceOnTheReceiver) {
       }
     EXPECT_GT(hidden, 50) << "overlapping faces of the box must not darken twice";
   }
+}
+
+TEST(PlanarProjection, ABoxThatStandsOnTheReceiverDoesNotDarkenItsOutline) {
+  TracedScene scene;
+  scene.meshes = {groundMesh(1), boxMesh(2, {-1, -1, 0}, {1, 1, 1.5f})};
+  scene.render();
+  const LightPlace light = pointAt({-4, 2, 5});
+  const Floats shadow = planarShadow(scene.seen(), 1, planeOfReceiver(scene.seen(), 1, "Ground"),
+                                     scene.meshes, scene.casters(), light, {.alpha = 1.0f});
+  int outline = 0;
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) {
+      if (scene.ids(x, y) != 1) continue;
+      int shown = 0, dark = 0;
+      for (int k = 0; k < 64; ++k) {
+        const double u = x + (k % 8 + 0.5) / 8, v = y + (k / 8 + 0.5) / 8;
+        const V3d o = scene.eye + scene.rays.origin(u, v), d = scene.rays.direction(u, v);
+        const auto hit = scene.nearest(o, d);
+        if (!hit || hit->id != 1) continue;
+        ++shown;
+        dark += scene.hidden(TracedScene::lifted(o, d, *hit, 1e-5), light);
+      }
+      EXPECT_NEAR(shadow(x, y), double(dark) / shown, 2.5 / 64) << x << ' ' << y;
+      outline += shown < 64 && dark == 0;
+    }
+  EXPECT_GT(outline, 5);
 }
 
 TEST(PlanarProjection, AReceiverThatIsNotFlatOrNotThereIsRefused) {

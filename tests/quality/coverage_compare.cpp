@@ -1,6 +1,6 @@
 // Compares coverage with a trace of the same frame at eight times the resolution, one sample in the
 // middle of each of its pixels: exactly the 8x8 sub-pixels. Prints one line of the table and writes
-// a picture: trace, coverage, and sixteen times their difference. Leaves 1 when a demand is missed.
+// a picture of both and their difference. Leaves 1 when a demand is missed.
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
@@ -14,6 +14,7 @@
 #include "frame/casters.h"
 #include "passes/coverage.h"
 #include "passes/shadow_volume.h"
+#include "side_by_side.h"
 
 namespace kagefude {
 namespace {
@@ -92,21 +93,6 @@ Truth truthOf(const std::string& path, int width, int height, const V3d& light) 
   return truth;
 }
 
-void writePicture(const Truth& truth, const Floats& coverage, const std::string& path) {
-  const int width = coverage.width(), height = coverage.height();
-  Floats picture(width, 3 * height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const float expected = std::max(0.0f, truth.coverage(x, y));
-      picture(x, y) = 1 - expected;
-      picture(x, y + height) = 1 - coverage(x, y);
-      const bool judged = truth.coverage(x, y) >= 0 && !truth.atTerminator(x, y);
-      picture(x, y + 2 * height) = judged ? 16 * std::fabs(coverage(x, y) - expected) : 0;
-    }
-  OIIO::ImageBuf image(OIIO::ImageSpec(width, 3 * height, 1, OIIO::TypeFloat), picture.row(0));
-  image.write(path, OIIO::TypeUInt8);
-}
-
 /// Edge pixels are those whose 64 samples do not agree on the object or on the light; elsewhere one
 /// sub-pixel's difference counts as right, more as wrong.
 bool report(const std::string& name, const Truth& truth, const Floats& coverage, const Labels& ids,
@@ -171,7 +157,8 @@ bool compare(const std::string& name, const std::string& frame, const std::strin
                                  : shadowCoverage(seen, casters, light, {});
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   const Truth truth = truthOf(fine, ids.width(), ids.height(), light.position);
-  writePicture(truth, coverage, picture);
+  writeSideBySide(picture, name + (volume ? ", volume" : ", coverage"), coverage, truth.coverage,
+                  truth.atTerminator);
   return report(name + (volume ? " (volume)" : ""), truth, coverage, ids, triangles, time.count());
 }
 

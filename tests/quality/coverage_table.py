@@ -5,7 +5,8 @@
     tests/quality/coverage_table.py COVERAGE_COMPARE FOLDER [SCENE …]
 
 COVERAGE_COMPARE is the built program; pictures and renders go to FOLDER and are kept, so a second
-run only compares. Exit code 1 when a demand is missed.
+run only compares. Beside SCENE_coverage.png and SCENE_volume.png (ours, Blender's, difference) it
+writes coverage.png, all scenes on one sheet. Exit code 1 when a demand is missed.
 """
 
 import os
@@ -46,12 +47,16 @@ def main(program, folder, *scenes):
     print("| " + " | ".join(TITLES) + " |")
     print("|" + "---|" * len(TITLES), flush=True)
     good = True
-    for scene in scenes or SCENES:
+    chosen = scenes or SCENES
+    for scene in chosen:
         frame, fine = (render(scene, size, folder) for size in (1, 8))
         for method in ("coverage", "volume"):
             picture = os.path.join(folder, f"{scene}_{method}.png")
             done = subprocess.run([program, scene, frame, fine, picture, method], check=False)
             good &= done.returncode == 0
+    sheet = [os.path.join(folder, f"{scene}_coverage.png") for scene in chosen]
+    subprocess.run(["oiiotool", *sheet, "--mosaic:pad=4", f"1x{len(sheet)}", "-o",
+                    os.path.join(folder, "coverage.png")], check=True)
     return 0 if good else 1
 
 
