@@ -66,6 +66,11 @@ class KeptBlocks {
     keepWithin(keeps ? most_ - used_ : 0);
   }
 
+  void release() {
+    std::lock_guard lock(mutex_);
+    keepWithin(0);
+  }
+
  private:
   struct Block {
     void* memory;
@@ -115,5 +120,7 @@ void givePlaneMemory(void* memory, size_t bytes) noexcept {
   }
   keptBlocks().give(memory, roundedUp(bytes, hugePage));
 }
+
+void releaseKeptPlaneMemory() { keptBlocks().release(); }
 
 }  // namespace kagefude

@@ -198,6 +198,7 @@ void coverageMemory(benchmark::State& state) {
   const Frame& frame = frameOf(static_cast<int>(state.range(0)));
   constexpr double pixels = double(width) * height, inputs = 7 * sizeof(float);
   for (auto _ : state) {
+    releaseKeptPlaneMemory();
     malloc_trim(0);
     std::ofstream("/proc/self/clear_refs") << "5";  // starts the peak anew
     const double before = memoryOf("VmRSS:");
@@ -224,10 +225,7 @@ void masksOfNinePlaces(benchmark::State& state) {
   }
 }
 
-<<<<<<< HEAD
-=======
 BENCHMARK(coverageMemory)->Arg(20000)->Iterations(1);
->>>>>>> casters
 BENCHMARK(coverage)
     ->Arg(20000)
     ->Arg(200000)
