@@ -156,10 +156,16 @@ bool compare(const std::string& name, const std::string& frame, const std::strin
   const Floats coverage = volume ? shadowVolume(seen, read.meshes, casters, light, {})
                                  : shadowCoverage(seen, casters, light, {});
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  const Truth truth = truthOf(fine, ids.width(), ids.height(), light.position);
+  Truth truth = truthOf(fine, ids.width(), ids.height(), light.position);
+  const bool kept =
+      report(name + (volume ? " (volume)" : ""), truth, coverage, ids, triangles, time.count());
+  // A pixel whose centre shows background has no surface to cut.
+  for (int y = 0; y < ids.height(); ++y)
+    for (int x = 0; x < ids.width(); ++x)
+      if (ids(x, y) == 0) truth.coverage(x, y) = -1;
   writeSideBySide(picture, name + (volume ? ", volume" : ", coverage"), coverage, truth.coverage,
                   truth.atTerminator);
-  return report(name + (volume ? " (volume)" : ""), truth, coverage, ids, triangles, time.count());
+  return kept;
 }
 
 }  // namespace
