@@ -24,6 +24,9 @@ SHOWN = {"hard": "hard mask", "seed_pair": "seed's pair", "pair_smooth": "pair",
          "average": "mean of 9", "five_masks": "five masks", "nine_masks": "nine masks",
          "thirty_three_masks": "33 masks"}
 
+FONTS = ["/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+         "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"]
+
 
 def frames(folder, scene, method):
     """One comparison a frame, in frame order."""
@@ -85,7 +88,11 @@ def grey(folder, scene, method):
 
 
 def label(words, size):
-    return [f"--text:x=6:y={size + 4}:size={size}:color=0.8,0.1,0.1", words]
+    """oiiotool's words to write over a picture; nothing where the machine has no such font."""
+    for font in FONTS:
+        if os.path.exists(font):
+            return [f"--text:x=6:y={size + 4}:size={size}:color=0.8,0.1,0.1:font={font}", words]
+    return []
 
 
 def side_by_side(folder, scene):
@@ -106,7 +113,7 @@ def side_by_side(folder, scene):
 def montage(folder, scenes):
     """One small picture of all scenes: a row each, truth, methods, and the error of nine masks."""
     columns = ["truth", "hard", "seed_pair", "pair_smooth", "pcss", "average", "nine_masks"]
-    side = 144
+    side = 120
     command = ["oiiotool"]
     for row, scene in enumerate(scenes):
         for method in columns:
