@@ -22,7 +22,7 @@ METHODS = {
 # What the pictures show, in this order, and what stands over them.
 SHOWN = {"hard": "hard mask", "seed_pair": "seed's pair", "pair_smooth": "pair", "pcss": "PCSS",
          "average": "mean of 9", "five_masks": "five masks", "nine_masks": "nine masks",
-         "thirty_three_masks": "33 masks"}
+         "seventeen_masks": "17 masks"}
 
 FONTS = ["/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
          "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"]
