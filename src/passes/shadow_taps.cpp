@@ -181,12 +181,13 @@ KAGEFUDE_CLONES void addBit(const uint8_t* mask, int count, uint32_t bit, uint32
   for (int i = 0; i < count; ++i) out[i] |= mask[i] ? bit : 0;
 }
 
-/// The one label of a block, or `mixed`.
+/// The one label of a block, or `mixed`; mixed, too, where the frame's edge cuts it.
 uint32_t labelOf(View<const uint32_t> labels, int x0, int y0) {
+  if (x0 + block > labels.width || y0 + block > labels.height) return mixed;
   const uint32_t first = labels(x0, y0);
   uint32_t differs = 0;
-  for (int y = y0; y < std::min(y0 + block, labels.height); ++y)
-    for (int x = x0; x < std::min(x0 + block, labels.width); ++x) differs |= labels(x, y) ^ first;
+  for (int y = y0; y < y0 + block; ++y)
+    for (int x = x0; x < x0 + block; ++x) differs |= labels(x, y) ^ first;
   return differs ? mixed : first;
 }
 

@@ -75,21 +75,21 @@ ShadowTaps::Mean naiveMean(const Floor& f, const ShadowPlaces& places, int x, in
 }
 
 void expectDefinition(int masks) {
-  Floor floor(160, 120, masks);
+  Floor floor(153, 113, masks);
   floor.draw(0, [](float x, float y) { return std::fmod(x * 7 + y * 13, 11.0f) > 4; });
-  for (int y = 0; y < 120; ++y)
-    for (int x = 90; x < 160; ++x) {
+  for (int y = 0; y < 113; ++y)
+    for (int x = 90; x < 153; ++x) {
       if (y < 50) floor.labels(x, y) = 2;
       if (y > 80) floor.normal.set(x, y, V3f(0.6f, 0, 0.8f));
     }
   const ShadowTaps taps = floor.taps();
   const ShadowPlaces places = placesBetween(floor.places, 24, 1.0f);
   ShadowShift along;
-  along.ux = 0.9f, along.uy = 0.2f, along.vx = -0.1f, along.vy = 0.6f;
+  along.ux = 0.95f, along.uy = 0.1f, along.vx = -0.1f, along.vy = 0.95f;
   int valid = 0, refused = 0;
-  for (int y = 0; y < 120; y += 3)
-    for (int x = 0; x < 160; x += 5)
-      for (const float shift : {1.0f, 6.5f, 23.0f}) {
+  for (int y = 0; y < 113; y += 2)
+    for (int x = 0; x < 153; x += 3)
+      for (const float shift : {1.0f, 6.5f, 15.0f, 23.0f, 31.0f}) {
         const ShadowTaps::Mean found = taps.mean(places, x, y, along, shift);
         const ShadowTaps::Mean naive = naiveMean(floor, places, x, y, along, shift);
         ASSERT_EQ(found.valid, naive.valid) << x << " " << y << " " << shift;
