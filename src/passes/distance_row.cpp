@@ -11,12 +11,14 @@ namespace {
 
 using Lanes = uint16_t __attribute__((vector_size(2 * rowBlock)));
 
-/// The last column at which u's parabola is not above v's (u < v).
-int crossing(const int16_t* offsets, int u, int v) {
+/// The first column at which v's site is to be had instead of u's (u < v): it is nearer, or as near
+/// and in an upper row.
+int takeover(const int16_t* offsets, int u, int v) {
   const int64_t fu = int64_t{offsets[u]} * offsets[u], fv = int64_t{offsets[v]} * offsets[v];
   const int64_t top = int64_t{v} * v - int64_t{u} * u + fv - fu, bottom = 2 * int64_t{v - u};
   const int64_t floored = top >= 0 ? top / bottom : -((-top + bottom - 1) / bottom);
-  return static_cast<int>(std::clamp<int64_t>(floored, -1, 65535));
+  const bool atOnce = floored * bottom == top && offsets[v] < offsets[u];
+  return static_cast<int>(std::clamp<int64_t>(floored + (atOnce ? 0 : 1), 0, 65535));
 }
 
 }  // namespace
@@ -39,7 +41,9 @@ KAGEFUDE_CLONES bool searchBlock(const uint16_t* squares, uint16_t* best) {
       Lanes left, right;
       std::memcpy(&left, squares - o, sizeof left);
       std::memcpy(&right, squares + o, sizeof right);
-      const Lanes near = (left < right ? left : right) + static_cast<uint16_t>(o * o);
+      const auto square = static_cast<uint16_t>(o * o);
+      const Lanes least = left < right ? left : right, most = Lanes{} + (farAway - square);
+      const Lanes near = (least < most ? least : most) + square;
       lowest = near < lowest ? near : lowest;
     }
     // The next offset is o: nothing nearer than o² is left to find.
@@ -54,6 +58,32 @@ KAGEFUDE_CLONES bool searchBlock(const uint16_t* squares, uint16_t* best) {
   return !open;
 }
 
+KAGEFUDE_CLONES void findBlockSites(const uint16_t* squares, const int16_t* offsets,
+                                    const uint16_t* squared, int16_t* across, int16_t* down) {
+  using Signed = int16_t __attribute__((vector_size(2 * rowBlock)));
+  Lanes lowest;
+  std::memcpy(&lowest, squared, sizeof lowest);
+  uint16_t farthest = 0;
+  for (int i = 0; i < rowBlock; ++i) farthest = std::max(farthest, squared[i]);
+  Signed bestDown = Signed{} + noRow, bestAcross{};
+  const auto consider = [&](int o, uint16_t square) {
+    Lanes there;
+    Signed rows;
+    std::memcpy(&there, squares + o, sizeof there);
+    std::memcpy(&rows, offsets + o, sizeof rows);
+    const Signed better =
+        (Signed)(there == lowest - square) & (Signed)(lowest >= square) & (rows < bestDown);
+    bestDown = better ? rows : bestDown;
+    bestAcross = better ? Signed{} + static_cast<int16_t>(o) : bestAcross;
+  };
+  for (int o = 0; o * o <= farthest; ++o) {
+    consider(-o, static_cast<uint16_t>(o * o));
+    consider(o, static_cast<uint16_t>(o * o));
+  }
+  std::memcpy(across, &bestAcross, sizeof bestAcross);
+  std::memcpy(down, &bestDown, sizeof bestDown);
+}
+
 void Envelope::build(const int16_t* offsets, int count) {
   columns_.clear();
   starts_.clear();
@@ -61,7 +91,7 @@ void Envelope::build(const int16_t* offsets, int count) {
     if (offsets[u] == noRow || offsets[u] == -noRow) continue;
     int start = 0;
     while (!columns_.empty()) {
-      start = crossing(offsets, columns_.back(), u) + 1;
+      start = takeover(offsets, columns_.back(), u);
       if (start > starts_.back()) break;
       columns_.pop_back();
       starts_.pop_back();

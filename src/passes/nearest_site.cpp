@@ -137,10 +137,11 @@ void findNearestSites(const SiteSearch& search, const std::vector<LabelBox>& box
   requireSize("the plane of distances", squared, search.kinds.width, search.kinds.height);
   if (!index.empty())
     requireSize("the plane of site indices", index, search.kinds.width, search.kinds.height);
-  parallelRows(squared.height, bandRows, [&](int y0, int y1) {
-    for (const View<uint32_t>& plane : {squared, index})
-      if (!plane.empty()) std::fill(plane.row(y0), plane.row(y1), noSite);
-  });
+  if (!search.labels.empty())
+    parallelRows(squared.height, bandRows, [&](int y0, int y1) {
+      for (const View<uint32_t>& plane : {squared, index})
+        if (!plane.empty()) std::fill(plane.row(y0), plane.row(y1), noSite);
+    });
   std::vector<LabelBox> large, small, thin;
   for (const LabelBox& box : boxes) {
     const uint64_t area = static_cast<uint64_t>(box.x1 - box.x0) * (box.y1 - box.y0);

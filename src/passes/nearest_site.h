@@ -46,13 +46,13 @@ bool isScattered(const LabelBox& box);
 /// Method: two separable integer phases (Saito & Toriwaki 1994; Meijster et al. 2000; Felzenszwalb
 /// & Huttenlocher 2004): signed row distance down each column, then along rows an outward search in
 /// blocks of 32 pixels, with the exact parabola envelope for rows in which a site is farther than
-/// 180 pixels. Per label on its box; labels that are tiny or scattered thinly over a large box go
+/// 252 pixels. Per label on its box; labels that are tiny or scattered thinly over a large box go
 /// by their sorted site lists instead, so thousands of overlapping boxes stay cheap.
 ///
 /// Exact and the same bits on every machine and for any number of threads. Frames up to 32767
 /// pixels a side; larger ones, and planes that differ in size, throw InputError.
-/// Cost: linear in the frame and in the boxes (at most 32 times their labels' pixels); with an
-/// index also the distance, per wanted pixel. Scratch: 2 bytes a pixel of the largest box.
+/// Cost: linear in the frame and in the boxes (at most 32 times their labels' pixels). Scratch: 2
+/// bytes a pixel of the largest box.
 void findNearestSites(const SiteSearch& search, const std::vector<LabelBox>& boxes,
                       View<uint32_t> squared, View<uint32_t> index = {});
 

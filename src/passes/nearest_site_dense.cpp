@@ -1,6 +1,7 @@
 #include "passes/nearest_site_dense.h"
 
-#include <cstring>
+#include <algorithm>
+#include <vector>
 
 #include "image/clones.h"
 #include "image/parallel.h"
@@ -54,23 +55,21 @@ KAGEFUDE_CLONES void columnPhase(const Strip& s) {
   }
 }
 
-/// Index of the site at squared distance d2 from (x, y): the smallest y, then the smallest x.
-uint32_t siteIndexAt(const int16_t* offsets, int count, int x, int y, uint32_t d2, int x0,
-                     int width) {
-  int bestY = 1 << 30, bestX = 0;
-  for (int o = 0; int64_t{o} * o <= d2; ++o)
-    for (const int u : {x - o, x + o}) {
-      if (u < 0 || u >= count) continue;
-      const int64_t down = offsets[u];
-      if (down * down + int64_t{o} * o != d2) continue;
-      const int siteY = y + static_cast<int>(down);
-      if (siteY < bestY || (siteY == bestY && u < bestX)) {
-        bestY = siteY;
-        bestX = u;
-      }
-    }
-  return static_cast<uint32_t>(bestY) * static_cast<uint32_t>(width) +
-         static_cast<uint32_t>(x0 + bestX);
+/// Lanes of a block: all bits where a pixel is wanted, else 0. Returns whether any is.
+KAGEFUDE_CLONES bool wantedLanes(const uint8_t* kinds, uint8_t wantedKind, const uint32_t* labels,
+                                 uint32_t label, int count, uint16_t* lanes) {
+  uint16_t any = 0;
+  for (int i = 0; i < count; ++i) lanes[i] = kinds[i] == wantedKind ? 65535 : 0;
+  for (int i = count; i < rowBlock; ++i) lanes[i] = 0;
+  if (labels)
+    for (int i = 0; i < count; ++i) lanes[i] = labels[i] == label ? lanes[i] : uint16_t{0};
+  for (int i = 0; i < rowBlock; ++i) any |= lanes[i];
+  return any != 0;
+}
+
+KAGEFUDE_CLONES void storeWanted(const uint16_t* wanted, const uint16_t* squared, int count,
+                                 uint32_t* out) {
+  for (int i = 0; i < count; ++i) out[i] = wanted[i] ? squared[i] : out[i];
 }
 
 /// Second phase for the wanted pixels of a band of rows.
@@ -83,56 +82,63 @@ class RowPhase {
         offsets_(offsets),
         squared_(squared),
         index_(index),
-        squares_(static_cast<size_t>(offsets.width) + 2 * rowPad, farAway) {}
+        squares_(static_cast<size_t>(offsets.width) + 2 * rowPad, farAway),
+        padded_(index.empty() ? 0 : squares_.size(), noRow) {}
 
   void run(int y) {
     row_ = offsets_.row(y - box_.y0);
-    squared16Ready_ = envelopeReady_ = false;
+    squaresReady_ = envelopeReady_ = false;
+    if (search_.labels.empty())
+      for (const View<uint32_t>& plane : {squared_, index_})
+        if (!plane.empty()) std::fill(plane.row(y), plane.row(y + 1), noSite);
     for (int x = box_.wantedX0; x < box_.wantedX1; x += rowBlock) {
-      uint16_t best[rowBlock];
-      if (wantedLanes(x, y, best)) searchWanted(x, y, best);
+      uint16_t wanted[rowBlock];
+      const int count = std::min(rowBlock, box_.wantedX1 - x);
+      const uint32_t* const labels = search_.labels.empty() ? nullptr : search_.labels.row(y) + x;
+      if (wantedLanes(search_.wantedKinds.row(y) + x, search_.wantedKind, labels, box_.label, count,
+                      wanted))
+        searchWanted(x, y, count, wanted);
     }
   }
 
  private:
-  /// Sets lanes to the largest value where the block's pixels are wanted, else to 0.
-  bool wantedLanes(int x, int y, uint16_t* lanes) const {
-    const uint8_t* const kind = search_.wantedKinds.row(y) + x;
-    const int count = std::min(rowBlock, box_.wantedX1 - x);
-    int found = 0;
-    for (int i = 0; i < count; ++i) found += kind[i] == search_.wantedKind;
-    if (found == 0) return false;
-    for (int i = 0; i < rowBlock; ++i)
-      lanes[i] = i < count && kind[i] == search_.wantedKind && inLabel(x + i, y) ? 65535 : 0;
-    uint16_t any = 0;
-    for (int i = 0; i < rowBlock; ++i) any |= lanes[i];
-    return any != 0;
+  void prepareSquares() {
+    squareRow(row_, offsets_.width, squares_.data() + rowPad);
+    if (!padded_.empty()) std::copy_n(row_, offsets_.width, padded_.data() + rowPad);
+    squaresReady_ = true;
   }
 
-  bool inLabel(int x, int y) const {
-    return search_.labels.empty() || search_.labels(x, y) == box_.label;
-  }
-
-  void searchWanted(int x, int y, uint16_t* best) {
-    if (!squared16Ready_) squareRow(row_, offsets_.width, squares_.data() + rowPad);
-    squared16Ready_ = true;
-    uint16_t wanted[rowBlock];
-    std::memcpy(wanted, best, sizeof wanted);
-    const bool done =
-        !envelopeReady_ && searchBlock(squares_.data() + rowPad + (x - box_.x0), best);
-    if (!done && !envelopeReady_) {
-      envelope_.build(row_, offsets_.width);
-      envelopeReady_ = true;
+  void searchWanted(int x, int y, int count, const uint16_t* wanted) {
+    if (!squaresReady_) prepareSquares();
+    uint16_t best[rowBlock];
+    std::copy_n(wanted, rowBlock, best);
+    const int column = x - box_.x0;
+    if (!envelopeReady_ && searchBlock(squares_.data() + rowPad + column, best)) {
+      storeWanted(wanted, best, count, squared_.row(y) + x);
+      if (!index_.empty()) storeBlockSites(x, y, count, wanted, best);
+      return;
     }
-    for (int i = 0; i < rowBlock; ++i) {
+    if (!envelopeReady_) envelope_.build(row_, offsets_.width);
+    envelopeReady_ = true;
+    for (int i = 0; i < count; ++i) {
       if (!wanted[i]) continue;
-      const int column = x + i - box_.x0;
-      const uint32_t d2 = done ? best[i] : envelope_.at(row_, column);
-      squared_(x + i, y) = d2;
-      if (!index_.empty() && d2 != noSite)
-        index_(x + i, y) =
-            siteIndexAt(row_, offsets_.width, column, y, d2, box_.x0, squared_.width);
+      squared_(x + i, y) = envelope_.at(row_, column + i);
+      if (!index_.empty() && squared_(x + i, y) != noSite)
+        index_(x + i, y) = indexOf(box_.x0 + envelope_.column(), y + row_[envelope_.column()]);
     }
+  }
+
+  void storeBlockSites(int x, int y, int count, const uint16_t* wanted, const uint16_t* squared) {
+    int16_t across[rowBlock], down[rowBlock];
+    const int at = rowPad + x - box_.x0;
+    findBlockSites(squares_.data() + at, padded_.data() + at, squared, across, down);
+    for (int i = 0; i < count; ++i)
+      if (wanted[i]) index_(x + i, y) = indexOf(x + i + across[i], y + down[i]);
+  }
+
+  uint32_t indexOf(int x, int y) const {
+    return static_cast<uint32_t>(y) * static_cast<uint32_t>(squared_.width) +
+           static_cast<uint32_t>(x);
   }
 
   const SiteSearch& search_;
@@ -140,9 +146,10 @@ class RowPhase {
   View<const int16_t> offsets_;
   View<uint32_t> squared_, index_;
   std::vector<uint16_t> squares_;
+  std::vector<int16_t> padded_;  ///< the row's offsets, where indices are wanted
   Envelope envelope_;
   const int16_t* row_ = nullptr;
-  bool squared16Ready_ = false, envelopeReady_ = false;
+  bool squaresReady_ = false, envelopeReady_ = false;
 };
 
 }  // namespace

@@ -76,8 +76,8 @@ void ShadowMatch::measureTile(int tx, int ty, const PixelSet& edges) {
   const int step = tile_ / 2, width = edges.width(), height = edges.height();
   for (int y = ty * tile_ + step / 2; y < std::min((ty + 1) * tile_, height); y += step)
     for (int x = tx * tile_ + step / 2; x < std::min((tx + 1) * tile_, width); x += step) {
-      // Large tiles: every other sample, as on a chessboard.
-      if (step > 2 && ((x + y) / step & 1)) continue;
+      // Large tiles: one sample each, above and below by turns.
+      if (step > 2 && ((x / step & 1) || (y / step & 1) != (tx & 1))) continue;
       if (!edges.contains(x, y) || !(need_.at(x, y) > 0)) continue;
       const uint32_t label = taps_.label(x, y);
       Sums* sums = nullptr;

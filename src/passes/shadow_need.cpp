@@ -13,7 +13,7 @@ constexpr int within = 12;     ///< pixels in which an edge that all masks show 
 
 }  // namespace
 
-bool ShadowNeed::besideOpposite(int x, int y, uint32_t opposite) const {
+bool ShadowNeed::besideOpposite(int x, int y, ShadowTaps::Seen opposite) const {
   constexpr int steps[8][2] = {{1, 0}, {-1, 0},  {0, 1},  {0, -1},
                                {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
   const uint32_t label = taps_.label(x, y);
@@ -21,16 +21,18 @@ bool ShadowNeed::besideOpposite(int x, int y, uint32_t opposite) const {
     for (int i = 1; i <= within; ++i) {
       const int nx = x + i * step[0], ny = y + i * step[1];
       if (!taps_.labels().contains(nx, ny)) break;
-      if (taps_.bits(nx, ny) == opposite && taps_.label(nx, ny) == label) return true;
+      if (taps_.seen(nx, ny) == opposite && taps_.label(nx, ny) == label) return true;
     }
   return false;
 }
 
 float ShadowNeed::at(int x, int y) const {
-  const uint32_t all = taps_.allBits(), bits = taps_.bits(x, y);
+  using Seen = ShadowTaps::Seen;
+  const Seen seen = taps_.seen(x, y);
   // Where the masks agree, only a shadow thinner than its shift can be missed by all of them;
   // beside one that all masks show, there is nothing to follow.
-  if (bits == 0 || bits == all) return besideOpposite(x, y, all & ~bits) ? 0.0f : 1.0f;
+  if (seen != Seen::some)
+    return besideOpposite(x, y, seen == Seen::all ? Seen::none : Seen::all) ? 0.0f : 1.0f;
   const auto masks = places_.size();
   const uint32_t number = edges_.indexOf(x, y);
   float s[ShadowTaps::mostMasks], mean = 0;
@@ -41,12 +43,12 @@ float ShadowNeed::at(int x, int y) const {
     mean += s[k];
   }
   mean /= static_cast<float>(masks);
-  // The places are a centre and a ring of radius 1: their moments are known.
-  const float moment = 0.5f * static_cast<float>(masks - 1);
-  float u = 0, v = 0;
+  // Places lie evenly round the centre, so u and v do not mix.
+  float u = 0, v = 0, moment = 0;
   for (size_t k = 1; k < masks; ++k) {
     u += s[k] * places_[k].x;
     v += s[k] * places_[k].y;
+    moment += 0.5f * (places_[k].x * places_[k].x + places_[k].y * places_[k].y);
   }
   u /= moment;
   v /= moment;

@@ -21,8 +21,8 @@ class ShadowNeed {
   float at(int x, int y) const;
 
  private:
-  /// Whether a pixel of the same label near (x, y) shows `opposite` in all masks.
-  bool besideOpposite(int x, int y, uint32_t opposite) const;
+  /// Whether a pixel of the same label near (x, y) shows `opposite`.
+  bool besideOpposite(int x, int y, ShadowTaps::Seen opposite) const;
 
   const ShadowTaps& taps_;
   const Distances& distances_;

@@ -13,12 +13,12 @@ struct ShadowPlaces {
   int count = 0;
   float reach = 0;               ///< longest offset
   float x[3][most], y[3][most];  ///< offsets from the three masks, in units of place
-  float weight[3][most];         ///< barycentric, at least 0; 1 together inside the ring
+  float weight[3][most];         ///< barycentric, at least 0; 1 together inside their mesh
   int32_t mask[3][most];
 };
 
 /// `count` (at most ShadowPlaces::most) places on a disc of `radius`, in units of place. masks: the
-/// masks' places, the centre and a ring in turning order.
+/// masks' places, a disc's.
 ShadowPlaces placesBetween(std::span<const V2f> masks, int count, float radius);
 
 }  // namespace kagefude

@@ -38,9 +38,18 @@ struct Sums {
   float visibility, cost, count;
 };
 
+constexpr int inLower = 16;  ///< masks whose bits lie beside the normal
+
+/// Whether mask k sees the light, by a pixel's lower and upper bits.
+template <bool wide>
+inline __attribute__((always_inline)) bool bitOf(uint32_t lower, uint64_t upper, int32_t k) {
+  if constexpr (wide) return (k < inLower ? lower >> k : upper >> (k - inLower)) & 1;
+  return lower >> k & 1;
+}
+
 /// Weight that counts, and lit weight, of every place. `uniform`: every tap is in the frame and on
-/// the label.
-template <bool uniform>
+/// the label. `wide`: more masks than the lower bits hold.
+template <bool uniform, bool wide>
 inline __attribute__((always_inline)) void gather(const Source& from, const ShadowPlaces& places,
                                                   float* weight, float* lit) {
   const int width = from.labels.width, height = from.labels.height;
@@ -66,7 +75,7 @@ inline __attribute__((always_inline)) void gather(const Source& from, const Shad
       if (!uniform) counts = counts & (qx == cx) & (qy == cy) & (labels[at] == label);
       const float w = counts ? share[i] : 0.0f;
       weight[i] += w;
-      lit[i] += (pixel >> mask[i] & 1) ? w : 0.0f;
+      lit[i] += bitOf<wide>(pixel, wide ? from.upperPixels[at] : 0, mask[i]) ? w : 0.0f;
     }
   }
 }
@@ -96,19 +105,20 @@ inline __attribute__((always_inline)) Sums sumUp(const float* weight, const floa
 
 KAGEFUDE_CLONES void sumAnywhere(const Source& from, const ShadowPlaces& places, Sums& sums) {
   float weight[ShadowPlaces::most], lit[ShadowPlaces::most];
-  gather<false>(from, places, weight, lit);
+  gather<false, false>(from, places, weight, lit);
   sums = sumUp(weight, lit, places.count);
 }
 
 KAGEFUDE_CLONES void sumOnOneLabel(const Source& from, const ShadowPlaces& places, Sums& sums) {
   float weight[ShadowPlaces::most], lit[ShadowPlaces::most];
-  gather<true>(from, places, weight, lit);
+  gather<true, false>(from, places, weight, lit);
   sums = sumUp(weight, lit, places.count);
 }
 
 /// Of the ring's taps, how many count and how many of those do not show what they foretell.
-KAGEFUDE_CLONES void compareRing(const Source& from, const ShadowTaps::Ring& ring, int& wrong,
-                                 int& count) {
+template <bool wide>
+inline __attribute__((always_inline)) void compare(const Source& from, const ShadowTaps::Ring& ring,
+                                                   int& wrong, int& count) {
   const int width = from.labels.width, height = from.labels.height;
   const uint32_t *const labels = from.labels.data, *const pixels = from.pixels.data;
   const uint32_t label = from.label, here = from.pixel;
@@ -122,10 +132,27 @@ KAGEFUDE_CLONES void compareRing(const Source& from, const ShadowTaps::Ring& rin
     const int at = cy * width + cx;
     const int counts = (qx == cx) & (qy == cy) & (labels[at] == label);
     counted += counts;
-    differ += counts & static_cast<int>((pixels[at] >> ring.from[i] ^ here >> ring.to[i]) & 1);
+    const bool there = bitOf<wide>(pixels[at], wide ? from.upperPixels[at] : 0, ring.from[i]);
+    differ += counts & static_cast<int>(there != bitOf<wide>(here, from.upper, ring.to[i]));
   }
   count = counted;
   wrong = differ;
+}
+
+KAGEFUDE_CLONES void compareRing(const Source& from, const ShadowTaps::Ring& ring, int& wrong,
+                                 int& count) {
+  compare<false>(from, ring, wrong, count);
+}
+
+KAGEFUDE_CLONES void compareWideRing(const Source& from, const ShadowTaps::Ring& ring, int& wrong,
+                                     int& count) {
+  compare<true>(from, ring, wrong, count);
+}
+
+KAGEFUDE_CLONES void sumWide(const Source& from, const ShadowPlaces& places, Sums& sums) {
+  float weight[ShadowPlaces::most], lit[ShadowPlaces::most];
+  gather<false, true>(from, places, weight, lit);
+  sums = sumUp(weight, lit, places.count);
 }
 
 /// Octahedral, a byte each for u and v in the upper half; a normal of length 0 gives 0.
@@ -146,16 +173,21 @@ KAGEFUDE_CLONES void packNormals(const float* nx, const float* ny, const float* 
   }
 }
 
+void addUpperBit(const uint8_t* mask, int count, uint64_t bit, uint64_t* out) {
+  for (int i = 0; i < count; ++i) out[i] |= mask[i] ? bit : 0;
+}
+
 KAGEFUDE_CLONES void addBit(const uint8_t* mask, int count, uint32_t bit, uint32_t* out) {
   for (int i = 0; i < count; ++i) out[i] |= mask[i] ? bit : 0;
 }
 
-/// The one label of a block, or `mixed`.
+/// The one label of a block, or `mixed`; mixed, too, where the frame's edge cuts it.
 uint32_t labelOf(View<const uint32_t> labels, int x0, int y0) {
+  if (x0 + block > labels.width || y0 + block > labels.height) return mixed;
   const uint32_t first = labels(x0, y0);
   uint32_t differs = 0;
-  for (int y = y0; y < std::min(y0 + block, labels.height); ++y)
-    for (int x = x0; x < std::min(x0 + block, labels.width); ++x) differs |= labels(x, y) ^ first;
+  for (int y = y0; y < y0 + block; ++y)
+    for (int x = x0; x < x0 + block; ++x) differs |= labels(x, y) ^ first;
   return differs ? mixed : first;
 }
 
@@ -165,8 +197,10 @@ ShadowTaps::ShadowTaps(std::span<const View<const uint8_t>> masks, std::span<con
                        View<const uint32_t> labels, Vec3View normal)
     : labels_(labels),
       ring_(ringOf(places)),
-      all_((uint32_t{1} << masks.size()) - 1),
+      lower_((uint32_t{1} << std::min<size_t>(masks.size(), inLower)) - 1),
+      upper_(masks.size() > inLower ? (uint64_t{1} << (masks.size() - inLower)) - 1 : 0),
       pixels_(labels.width, labels.height),
+      upperPixels_(upper_ ? Plane<uint64_t>(labels.width, labels.height, 0) : Plane<uint64_t>()),
       blocksX_((labels.width + block - 1) / block),
       blocksY_((labels.height + block - 1) / block) {
   parallelRows(labels.height, [&](int y0, int y1) { pack(masks, normal, y0, y1); });
@@ -178,7 +212,10 @@ void ShadowTaps::pack(std::span<const View<const uint8_t>> masks, Vec3View norma
   for (int y = y0; y < y1; ++y) {
     packNormals(normal.x.row(y), normal.y.row(y), normal.z.row(y), width, pixels_.row(y));
     for (size_t k = 0; k < masks.size(); ++k)
-      addBit(masks[k].row(y), width, uint32_t{1} << k, pixels_.row(y));
+      if (k < inLower)
+        addBit(masks[k].row(y), width, uint32_t{1} << k, pixels_.row(y));
+      else
+        addUpperBit(masks[k].row(y), width, uint64_t{1} << (k - inLower), upperPixels_.row(y));
   }
 }
 
@@ -215,8 +252,10 @@ void ShadowTaps::findUniform() {
 ShadowTaps::Source ShadowTaps::sourceAt(int x, int y, const ShadowShift& along, float shift) const {
   return {labels_,
           pixels_,
+          upper_ ? upperPixels_.row(0) : nullptr,
           labels_(x, y),
           pixels_(x, y),
+          upper_ ? upperPixels_(x, y) : 0,
           static_cast<float>(x) + 0.5f,
           static_cast<float>(y) + 0.5f,
           -along.ux * shift,
@@ -231,7 +270,9 @@ ShadowTaps::Mean ShadowTaps::mean(const ShadowPlaces& places, int x, int y,
   const int around = uniform_[static_cast<size_t>(y / block) * static_cast<size_t>(blocksX_) +
                               static_cast<size_t>(x / block)];
   Sums sums;
-  if (shift * places.reach + 1.0f < static_cast<float>((around - 1) * block)) {
+  if (upper_) {
+    sumWide(from, places, sums);
+  } else if (shift * places.reach + 1.0f < static_cast<float>((around - 1) * block)) {
     sumOnOneLabel(from, places, sums);
   } else {
     sumAnywhere(from, places, sums);
@@ -243,7 +284,10 @@ ShadowTaps::Mean ShadowTaps::mean(const ShadowPlaces& places, int x, int y,
 float ShadowTaps::mismatch(int x, int y, const ShadowShift& along, float shift) const {
   const Source from = sourceAt(x, y, along, shift);
   int wrong = 0, count = 0;
-  compareRing(from, ring_, wrong, count);
+  if (upper_)
+    compareWideRing(from, ring_, wrong, count);
+  else
+    compareRing(from, ring_, wrong, count);
   return count > 0 ? static_cast<float>(wrong) / static_cast<float>(count) : 1.0f;
 }
 

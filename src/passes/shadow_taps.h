@@ -5,6 +5,7 @@
 
 #include "image/plane.h"
 #include "image/vec.h"
+#include "passes/light_share.h"
 #include "passes/shadow_places.h"
 #include "passes/shadow_shift.h"
 
@@ -14,17 +15,23 @@ namespace kagefude {
 /// and about the same normal only.
 class ShadowTaps {
  public:
-  static constexpr size_t mostMasks = 16;
+  static constexpr size_t mostMasks = kagefude::mostMasks;
 
-  /// places: of the masks. Cost: one read of all planes; 4 bytes a pixel.
+  /// places: of the masks. Cost: one read of all planes; 4 bytes a pixel, with more than 16 masks
+  /// 12 bytes and slower taps.
   ShadowTaps(std::span<const View<const uint8_t>> masks, std::span<const V2f> places,
              View<const uint32_t> labels, Vec3View normal);
 
   View<const uint32_t> labels() const { return labels_; }
   uint32_t label(int x, int y) const { return labels_(x, y); }
-  /// Bit k: whether the pixel is lit in mask k.
-  uint32_t bits(int x, int y) const { return pixels_(x, y) & all_; }
-  uint32_t allBits() const { return all_; }
+  /// Which masks see the light at a pixel.
+  enum class Seen { none, some, all };
+  Seen seen(int x, int y) const {
+    const uint32_t lower = pixels_(x, y) & lower_;
+    const uint64_t upper = upper_ ? upperPixels_(x, y) : 0;
+    if (lower == 0 && upper == 0) return Seen::none;
+    return lower == lower_ && upper == upper_ ? Seen::all : Seen::some;
+  }
 
   struct Mean {
     float visibility;  ///< mean over the places
@@ -41,9 +48,11 @@ class ShadowTaps {
   /// Where a pixel's taps are looked up.
   struct Source {
     View<const uint32_t> labels, pixels;
-    uint32_t label, pixel;  ///< of the pixel looked from
-    float x, y;             ///< its centre
-    float ux, uy, vx, vy;   ///< pixels that a unit of place moves a tap
+    const uint64_t* upperPixels;  ///< null with 16 masks or fewer
+    uint32_t label, pixel;        ///< of the pixel looked from
+    uint64_t upper;
+    float x, y;            ///< its centre
+    float ux, uy, vx, vy;  ///< pixels that a unit of place moves a tap
   };
   /// The centre's mask moved to every other mask's place, and every other to the centre's.
   struct Ring {
@@ -59,8 +68,10 @@ class ShadowTaps {
 
   View<const uint32_t> labels_;
   Ring ring_;
-  uint32_t all_;
-  Plane<uint32_t> pixels_;  ///< normal in the upper half, mask bits in the lower
+  uint32_t lower_;               ///< bits of the first 16 masks
+  uint64_t upper_;               ///< and of the rest
+  Plane<uint32_t> pixels_;       ///< normal in the upper half, bits of 16 masks in the lower
+  Plane<uint64_t> upperPixels_;  ///< bits of the rest; empty when there is none
   int blocksX_, blocksY_;
   /// For blocks of 8x8 pixels: how many blocks to every side, less one, are of one label with it;
   /// 0: not even its own pixels are.

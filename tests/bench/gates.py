@@ -17,7 +17,7 @@ AT_MOST = [
     ("nine masks, distances and integral, 4K", "lightShapeNineMasks/0/real_time",
      "OpenCV distance transform", "openCvDistanceTransform/real_time", 10),
     ("nine masks with thin shadows followed, 4K", "lightShapeNineMasks/1/real_time",
-     "OpenCV distance transform", "openCvDistanceTransform/real_time", None),
+     "OpenCV distance transform", "openCvDistanceTransform/real_time", 10),
     ("brush, 21 styles, 4K", "brushHeld/real_time", "OpenCV phase and remap",
      "openCvPhaseRemap/real_time", 1.5),
     ("coverage, 20,000 triangles, 2K", "coverage/20000/process_time/real_time",

@@ -22,6 +22,14 @@ class Arguments(unittest.TestCase):
         self.assertEqual((options.masks.kind, options.masks.count), ("line", 7))
         self.assertEqual((options.offset, options.truth_samples, options.scale), (0.25, 512, 2))
 
+    def test_discs_of_many_masks(self):
+        for count in (5, 9, 17, 33, 65):
+            masks = arguments.parse_masks(f"disc:{count}")
+            self.assertEqual((masks.kind, masks.count), ("disc", count))
+        for words in ("disc:8", "disc:16", "disc:129", "disc:09", "disc:-9"):
+            with self.subTest(words), self.assertRaises(errors.UsageError):
+                arguments.parse_masks(words)
+
     def test_wrong_values_are_refused(self):
         for words in ("", "--output", "--output a.exr --masks disc:6", "--output a.exr --masks disc",
                       "--output a.exr --masks line:1", "--output a.exr --masks line:65",

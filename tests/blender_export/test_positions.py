@@ -50,6 +50,16 @@ class Positions(unittest.TestCase):
             self.assertAlmostEqual(vectors.length(away), 0.3)
             self.assertAlmostEqual(vectors.dot(away, travel), 0.0)
 
+    def test_larger_discs_contain_smaller_ones_and_stay_on_the_light(self):
+        centre, travel = (1.0, 2.0, 3.0), vectors.normalize((1.0, -2.0, -0.5))
+        largest = self.positions(Arrangement("disc", 65), centre, travel, 0.3)
+        for count in (9, 17, 33, 65):
+            found = self.positions(Arrangement("disc", count), centre, travel, 0.3)
+            self.assertEqual(found, largest[:count])
+            self.assertEqual(len(set(found)), count)
+            for place in found:
+                self.assertLess(vectors.length(vectors.subtract(place, centre)), 0.3 + 1e-9)
+
     def test_ring_runs_counter_clockwise_seen_from_the_subject(self):
         # Seen from the subject means looking against `travel`: turns about +travel are
         # counter-clockwise for an eye that the light travels towards.

@@ -15,11 +15,17 @@ struct Floor {
   int width, height;
   Labels labels;
   Vec3Plane position, normal;
-  std::vector<V2f> places = discPlaces(9);
+  std::vector<V2f> places;
   std::vector<Bytes> masks;
   LightGeometry geometry;
 
-  Floor(int w, int h) : width(w), height(h), labels(w, h, 1u), position(w, h), normal(w, h) {
+  Floor(int w, int h, int count = 9)
+      : width(w),
+        height(h),
+        labels(w, h, 1u),
+        position(w, h),
+        normal(w, h),
+        places(discPlaces(count)) {
     geometry.position = V3f(static_cast<float>(w) / 2, static_cast<float>(h) / 2, 1000);
     geometry.u = V3f(1, 0, 0);
     geometry.v = V3f(0, 1, 0);
@@ -68,22 +74,22 @@ ShadowTaps::Mean naiveMean(const Floor& f, const ShadowPlaces& places, int x, in
   return {static_cast<float>(visibility / count), static_cast<float>(cost / count), valid};
 }
 
-TEST(ShadowTaps, MeanEqualsItsDefinitionInsideAndAcrossLabelsAndFrameEdges) {
-  Floor floor(160, 120);
+void expectDefinition(int masks) {
+  Floor floor(153, 113, masks);
   floor.draw(0, [](float x, float y) { return std::fmod(x * 7 + y * 13, 11.0f) > 4; });
-  for (int y = 0; y < 120; ++y)
-    for (int x = 90; x < 160; ++x) {
+  for (int y = 0; y < 113; ++y)
+    for (int x = 90; x < 153; ++x) {
       if (y < 50) floor.labels(x, y) = 2;
       if (y > 80) floor.normal.set(x, y, V3f(0.6f, 0, 0.8f));
     }
   const ShadowTaps taps = floor.taps();
   const ShadowPlaces places = placesBetween(floor.places, 24, 1.0f);
   ShadowShift along;
-  along.ux = 0.9f, along.uy = 0.2f, along.vx = -0.1f, along.vy = 0.6f;
+  along.ux = 0.95f, along.uy = 0.1f, along.vx = -0.1f, along.vy = 0.95f;
   int valid = 0, refused = 0;
-  for (int y = 0; y < 120; y += 3)
-    for (int x = 0; x < 160; x += 5)
-      for (const float shift : {1.0f, 6.5f, 23.0f}) {
+  for (int y = 0; y < 113; y += 2)
+    for (int x = 0; x < 153; x += 3)
+      for (const float shift : {1.0f, 6.5f, 15.0f, 23.0f, 31.0f}) {
         const ShadowTaps::Mean found = taps.mean(places, x, y, along, shift);
         const ShadowTaps::Mean naive = naiveMean(floor, places, x, y, along, shift);
         ASSERT_EQ(found.valid, naive.valid) << x << " " << y << " " << shift;
@@ -93,7 +99,41 @@ TEST(ShadowTaps, MeanEqualsItsDefinitionInsideAndAcrossLabelsAndFrameEdges) {
         EXPECT_NEAR(found.cost, naive.cost, 1e-4);
       }
   EXPECT_GT(valid, 500);
-  EXPECT_GT(refused, 0);
+  EXPECT_TRUE(refused > 0 || masks > 9);
+}
+
+TEST(ShadowTaps, MeanEqualsItsDefinitionInsideAndAcrossLabelsAndFrameEdges) { expectDefinition(9); }
+
+TEST(ShadowTaps, MeanOfMoreMasksThanTheLowerBitsHoldEqualsItsDefinition) {
+  for (const int masks : {16, 17, 33, 65}) expectDefinition(masks);
+}
+
+TEST(ShadowTaps, SeenByNoneSomeOrAllMasks) {
+  using Seen = ShadowTaps::Seen;
+  for (const int count : {5, 9, 16, 17, 65}) {
+    Floor floor(8, 4, count);
+    floor.draw(0, [](float, float) { return false; });
+    for (Bytes& mask : floor.masks) mask(2, 0) = 1;
+    for (size_t k = 0; k < floor.masks.size(); ++k) {
+      floor.masks[k](3, 1) = 1;
+      const ShadowTaps taps = floor.taps();
+      EXPECT_EQ(taps.seen(1, 0), Seen::none);
+      EXPECT_EQ(taps.seen(2, 0), Seen::all);
+      EXPECT_EQ(taps.seen(3, 1), Seen::some) << count << " " << k;
+      floor.masks[k](3, 1) = 0;
+    }
+  }
+}
+
+TEST(ShadowTaps, MismatchOfManyMasksIsLowAtTheirShiftOnly) {
+  Floor floor(96, 48, 33);
+  floor.draw(8, [](float x, float) { return x > 47.5f; });
+  const ShadowTaps taps = floor.taps();
+  ShadowShift along;
+  along.ux = along.vy = -1;
+  EXPECT_LT(taps.mismatch(48, 24, along, 8), 0.05f);
+  along.ux = along.vy = 1;
+  EXPECT_GT(taps.mismatch(48, 24, along, 8), 0.5f);
 }
 
 TEST(ShadowTaps, MismatchByHand) {

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Measures every shadow method against traced truth: exports the scenes with Blender (kept in
 # build/quality, made again when scenes.py changes), comps and compares them, and prints the table.
-#   tests/quality/run.sh [SCENE ...]      pictures: build/quality/SCENE/side_by_side.png
+#   tests/quality/run.sh [SCENE ...]      pictures: build/quality/SCENE/side_by_side.png,
+#                                         and all scenes in build/quality/side_by_side.png
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 out=build/quality
