@@ -56,12 +56,6 @@ void strokeParts(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
   }
 }
 
-// Weight of one of several patterns by its part against the largest's.
-float excessShare(float part, float largest) {
-  const float excess = part / largest - axisThreshold;
-  return excess > 0.0f ? excess * excess : 0.0f;
-}
-
 }  // namespace
 
 BrushPlace brushPlace(const BrushAnchor& anchor, const V3f& p, float blend) {

@@ -5,17 +5,20 @@
 // Lookups of a strip taken apart, inline for the brush pass's inner loops.
 namespace kagefude {
 
+/// As probeTolerance: strokes are soft and few probes enough, most surfaces are read with one.
+inline constexpr float grainTolerance = 0.6f;
+
 /// Where a lookup lies in one level of the grain: its texel and the shares of the next ones.
 struct GrainPlace {
   int texel = 0;
   float fx = 0, fy = 0;
 };
 
-/// u in turns; w in heights of the grain, running back and forth: rows have no seam to hide.
-inline GrainPlace grainPlace(float u, float w, int width, int height, int offset) {
-  const float twice = 2.0f * fractionOf(0.5f * w);
-  const RowPlace row = rowPlace(twice > 1.0f ? twice - 1.0f : 1.0f - twice, height);
-  const ColumnPlace column = columnPlace(fractionOf(u), width);
+/// u in turns, [0, 1); half the place across the strokes in heights of the grain, [0, 1): it runs
+/// back and forth, for rows have no seam to hide.
+inline GrainPlace grainPlace(float u, float halfAcross, int width, int height, int offset) {
+  const RowPlace row = rowPlace(std::fabs(2.0f * halfAcross - 1.0f), height);
+  const ColumnPlace column = columnPlace(u, width);
   return {offset + row.upper * width + column.left, column.fraction, row.fraction};
 }
 
@@ -31,12 +34,14 @@ inline float grainBetween(uint32_t four, float fx, float fy) {
 
 inline float grainAt(const StripGrain& grain, size_t level, float u, float w) {
   const StripGrain::Level& l = grain.levels[level];
-  const GrainPlace place = grainPlace(u, w, l.width, l.height, l.offset);
+  const GrainPlace place =
+      grainPlace(fractionOf(u), fractionOf(0.5f * w), l.width, l.height, l.offset);
   return grainBetween(grain.pool.row(0)[place.texel], place.fx, place.fy);
 }
 
 inline StripProbe grainProbe(const StripGrain& grain, const Footprint& f, int maxProbes) {
-  return probeTexels(grain.levels.front().width, grain.levels.front().height, f, maxProbes);
+  return probeTexels(grain.levels.front().width, grain.levels.front().height, f, maxProbes,
+                     grainTolerance);
 }
 
 /// Mean of the probes round (u, w), each between two levels.

@@ -1,0 +1,100 @@
+#include "passes/grain_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "image/clones.h"
+#include "passes/grain_block.h"
+#include "passes/grain_lookup.h"
+
+namespace kagefude {
+namespace {
+
+/// Where each pixel's colour lies.
+struct ColourPlaces {
+  alignas(64) int texel[brushBlock], down[brushBlock];
+  alignas(64) float fx[brushBlock], fy[brushBlock];
+};
+
+/// Sizes of the colours' levels in arrays.
+struct ToneLevels {
+  static constexpr int most = 16;
+  int rows[most], offset[most];
+  int last = 0;
+
+  explicit ToneLevels(const StripGrain& grain)
+      : last(static_cast<int>(grain.toneLevels.size()) - 1) {
+    for (int i = 0; i <= last; ++i) {
+      rows[i] = grain.toneLevels[static_cast<size_t>(i)].height;
+      offset[i] = grain.toneLevels[static_cast<size_t>(i)].offset;
+    }
+  }
+};
+
+KAGEFUDE_CLONES
+void placeColours(const ToneLevels& levels, const BrushBlock& block, const float* __restrict grain,
+                  int count, ColourPlaces& places) {
+  int* __restrict texel = places.texel, * __restrict down = places.down;
+  float* __restrict fx = places.fx, * __restrict fy = places.fy;
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    const float across = std::fabs(block.across.tone[i]), below = std::fabs(block.down.tone[i]);
+    const int level = toneLevel(across > below ? across : below, levels.rows[0], levels.last);
+    const RowPlace row = rowPlace(block.here.tone[i + 1], levels.rows[level]);
+    const float at = grainColumn(grain[i]);
+    const int whole = static_cast<int>(at);
+    const int left = whole < StripGrain::columns - 1 ? whole : StripGrain::columns - 2;
+    texel[i] = levels.offset[level] + row.upper * StripGrain::columns + left;
+    down[i] = (row.lower - row.upper) * StripGrain::columns;
+    fx[i] = at - static_cast<float>(left);
+    fy[i] = row.fraction;
+  }
+}
+
+void storeColours(const BrushInput& in, const Strip& strip, const BrushBlock& block,
+                  const ColourPlaces& places, int first, int count, ColourRows& out) {
+  const Rgba* const colours = strip.grain.colours.row(0);
+  const float contrast = in.params.contrast;
+  for (int i = 0; i < count; ++i) {
+    const Rgba* upper = colours + places.texel[i];
+    const Rgba* lower = upper + places.down[i];
+    Rgba colour = mixFour(upper[0], upper[1], lower[0], lower[1], places.fx[i], places.fy[i]);
+    if (contrast != 1.0f) {
+      const Rgba mean = stripRowMean(strip, block.here.tone[i + 1]);
+      colour = mean + (colour - mean) * contrast;
+      colour = colour > 0.0f ? colour : Rgba{};
+    }
+    if (strip.opaque) colour[3] = 1.0f;
+    out.store(first + i, block.here.absent[i + 1] == 0.0f ? colour : Rgba{});
+  }
+}
+
+}  // namespace
+
+bool canPaintObjectRow(const BrushInput& in) {
+  return in.params.mapping == BrushParams::Mapping::held &&
+         in.params.grain == BrushParams::Grain::object &&
+         in.params.filter == BrushParams::Filter::anisotropic;
+}
+
+void paintObjectRow(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,
+                    ColourRows& out) {
+  const Strip& strip = in.strips[static_cast<size_t>(anchor.strip)];
+  const StripGrain::Level& full = strip.grain.levels.front();
+  const float aspect = static_cast<float>(full.width) / static_cast<float>(full.height);
+  const ToneLevels levels(strip.grain);
+  BrushBlock block;
+  GrainTaps taps;
+  ColourPlaces places;
+  alignas(64) float grain[brushBlock];
+  for (int x = first; x < end; x += brushBlock) {
+    const int count = std::min(end - x, brushBlock);
+    loadBlock(in, anchor, x, x + count, y, block);
+    listGrainTaps(in, anchor, aspect, count, block, taps);
+    readGrain(strip.grain, in.params.maxProbes, taps, grain);
+    placeColours(levels, block, grain, count, places);
+    storeColours(in, strip, block, places, x, count, out);
+  }
+}
+
+}  // namespace kagefude
