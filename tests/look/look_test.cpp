@@ -137,7 +137,7 @@ TEST(PassList, NamesAreUniqueAndDefaultsLieInTheirRanges) {
   }
 }
 
-TEST(Look, HighestPriorityHoldsThenTheFirst) {
+TEST_F(LookFile, HighestPriorityHoldsThenTheFirst) {
   const Look look = read(
       "[[style]]\nobject=\"*\"\nstrip=\"a\"\n[[style]]\nobject=\"*\"\nstrip=\"b\"\n"
       "priority=2\n[[style]]\nobject=\"*\"\nstrip=\"c\"\npriority=2\n");
