@@ -59,9 +59,10 @@ void unitNormals(const float* nx, const float* ny, const float* nz, int count, B
     const float length = std::sqrt(nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i]);
     const float sum = nx[i] + ny[i] + nz[i];
     const float finite = sum - sum == 0.0f ? length : 0.0f;
-    ox[i] = finite > 0.0f ? nx[i] / length : 0.0f;
-    oy[i] = finite > 0.0f ? ny[i] / length : 0.0f;
-    oz[i] = finite > 0.0f ? nz[i] / length : 0.0f;
+    const float scale = finite > 0.0f ? 1.0f / finite : 0.0f;
+    ox[i] = finite > 0.0f ? nx[i] * scale : 0.0f;
+    oy[i] = finite > 0.0f ? ny[i] * scale : 0.0f;
+    oz[i] = finite > 0.0f ? nz[i] * scale : 0.0f;
   }
 }
 

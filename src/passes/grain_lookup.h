@@ -6,7 +6,16 @@
 namespace kagefude {
 
 /// As probeTolerance: strokes are soft and few probes enough, most surfaces are read with one.
-inline constexpr float grainTolerance = 0.6f;
+inline constexpr float grainTolerance = 0.75f;
+
+/// Share of the step between two levels over which one fades into the other; beside it one level is
+/// read alone.
+inline constexpr float levelFade = 0.4f;
+inline float levelShare(float between) {
+  const float share = (between - 0.5f) * (1.0f / levelFade) + 0.5f;
+  const float above = share > 0.0f ? share : 0.0f;
+  return above < 1.0f ? above : 1.0f;
+}
 
 /// Where a lookup lies in one level of the grain: its texel and the shares of the next ones.
 struct GrainPlace {
@@ -48,8 +57,10 @@ inline StripProbe grainProbe(const StripGrain& grain, const Footprint& f, int ma
 inline float lookUpGrain(const StripGrain& grain, float u, float w, const StripProbe& probe) {
   const float last = static_cast<float>(grain.levels.size() - 1);
   const float lod = probe.lod < last ? probe.lod : last;
-  const auto fine = static_cast<size_t>(lod);
-  const float coarser = lod - static_cast<float>(fine);
+  const auto whole = static_cast<size_t>(lod);
+  const float share = levelShare(lod - static_cast<float>(whole));
+  const size_t fine = whole + (share >= 1.0f ? 1 : 0);
+  const float coarser = share >= 1.0f ? 0.0f : share;
   const float middle = 0.5f * static_cast<float>(probe.count - 1);
   float sum = 0;
   for (int i = 0; i < probe.count; ++i) {
@@ -61,11 +72,13 @@ inline float lookUpGrain(const StripGrain& grain, float u, float w, const StripP
   return sum / static_cast<float>(probe.count);
 }
 
-/// Tone levels by how many of the finest level's rows one pixel's change of tone crosses.
+/// Level of tones by how many of the finest level's rows one pixel's change of tone crosses: the
+/// nearest power of two, from the number's exponent.
 inline int toneLevel(float change, int rows, int lastLevel) {
-  const float crossed = change * static_cast<float>(rows);
-  const int level = crossed > 1.0f ? static_cast<int>(log2Of(crossed) + 0.5f) : 0;
-  return level < lastLevel ? level : lastLevel;
+  const float crossed = change * static_cast<float>(rows) * 1.41421356f;
+  const int level = (std::bit_cast<int>(crossed) >> 23) - 127;
+  const int positive = level > 0 ? level : 0;
+  return positive < lastLevel ? positive : lastLevel;
 }
 
 /// Column of the colours left of a grain, and the share of the next one.
@@ -79,15 +92,14 @@ inline float grainColumn(float grain) {
 
 /// Colour of a grain at a tone; `change` is the tone's change over the pixel.
 inline Rgba grainColour(const StripGrain& grain, float tone, float value, float change) {
-  const int last = static_cast<int>(grain.toneLevels.size()) - 1;
-  const int level = toneLevel(change, grain.toneLevels.front().height, last);
-  const StripGrain::Level& l = grain.toneLevels[static_cast<size_t>(level)];
-  const RowPlace row = rowPlace(tone, l.height);
+  const int level = toneLevel(change, grain.toneRows, grain.lastToneLevel);
+  const RowPlace row = rowPlace(tone, grain.toneRows >> level);
+  const int first = toneLevelRow(grain.toneRows, level);
   const float at = grainColumn(value);
   const int whole = static_cast<int>(at);
   const int left = whole < StripGrain::columns - 1 ? whole : StripGrain::columns - 2;
-  const Rgba* upper = grain.colours.row(0) + l.offset + row.upper * StripGrain::columns + left;
-  const Rgba* lower = grain.colours.row(0) + l.offset + row.lower * StripGrain::columns + left;
+  const Rgba* upper = grain.colours.row(first + row.upper) + left;
+  const Rgba* lower = grain.colours.row(first + row.lower) + left;
   return mixFour(upper[0], upper[1], lower[0], lower[1], at - static_cast<float>(left),
                  row.fraction);
 }

@@ -39,9 +39,10 @@ void splitTaps(float w, float h, float maxProbes, int lastLevel, GrainTaps& taps
                  lod, du, dv, grainTolerance);
     const float between = lod < most ? lod : most;
     const int fine = static_cast<int>(between);
+    const float share = levelShare(between - static_cast<float>(fine));
     probes[i] = static_cast<int>(n);
-    level[i] = fine;
-    coarser[i] = between - static_cast<float>(fine);
+    level[i] = fine + (share >= 1.0f ? 1 : 0);
+    coarser[i] = share >= 1.0f ? 0.0f : share;
     stepU[i] = du;
     stepV[i] = dv;
   }
@@ -63,28 +64,53 @@ void wrapPlaces(const float* __restrict places, float scale, int count, float* _
   for (int i = 0; i < count; ++i) wrapped[i] = fractionOf(places[i] * scale);
 }
 
+/// Where lookups lie, and the texels found there.
+struct Found {
+  alignas(64) int texel[Lookups::most];
+  alignas(64) float fx[Lookups::most], fy[Lookups::most];
+  alignas(64) uint32_t four[Lookups::most];
+};
+
 KAGEFUDE_CLONES
-void readTexels(const LevelSizes& sizes, const float* __restrict u, const float* __restrict across,
-                const int* __restrict level, int count, float* __restrict value) {
-  const uint32_t* __restrict pool = sizes.pool;
+void placeInLevels(const LevelSizes& sizes, const float* __restrict u,
+                   const float* __restrict across, const int* __restrict level, int count,
+                   Found& found) {
+  int* __restrict texel = found.texel;
+  float* __restrict fx = found.fx, * __restrict fy = found.fy;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const int l = level[i];
     const GrainPlace place =
         grainPlace(u[i], across[i], sizes.width[l], sizes.height[l], sizes.offset[l]);
-    value[i] = grainBetween(pool[place.texel], place.fx, place.fy);
+    texel[i] = place.texel;
+    fx[i] = place.fx;
+    fy[i] = place.fy;
   }
 }
 
 KAGEFUDE_CLONES
-void readOneLevel(const uint32_t* __restrict pool, int width, int height, int offset,
-                  const float* __restrict u, const float* __restrict across, int count,
-                  float* __restrict value) {
+void placeInLevel(int width, int height, int offset, const float* __restrict u,
+                  const float* __restrict across, int count, Found& found) {
+  int* __restrict texel = found.texel;
+  float* __restrict fx = found.fx, * __restrict fy = found.fy;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const GrainPlace place = grainPlace(u[i], across[i], width, height, offset);
-    value[i] = grainBetween(pool[place.texel], place.fx, place.fy);
+    texel[i] = place.texel;
+    fx[i] = place.fx;
+    fy[i] = place.fy;
   }
+}
+
+// One by one: gathering in vector registers costs more than it saves.
+void fetch(const uint32_t* pool, int count, Found& found) {
+  for (int i = 0; i < count; ++i) found.four[i] = pool[found.texel[i]];
+}
+
+KAGEFUDE_CLONES
+void interpolate(const Found& found, int count, float* __restrict value) {
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) value[i] = grainBetween(found.four[i], found.fx[i], found.fy[i]);
 }
 
 KAGEFUDE_CLONES
@@ -94,19 +120,22 @@ bool allEqual(const int* __restrict level, int count) {
   return different == 0;
 }
 
-// Neighbours mostly lie in the same level: then only the texels themselves are gathered.
+// Neighbours mostly lie in the same level: then its sizes need not be looked up.
 void readLevels(const LevelSizes& sizes, const float* u, const float* across, const int* level,
                 int count, float* value) {
   alignas(64) float wrappedU[Lookups::most], wrappedAcross[Lookups::most];
   wrapPlaces(u, 1.0f, count, wrappedU);
   wrapPlaces(across, 0.5f, count, wrappedAcross);
+  Found found;
   if (count > 0 && allEqual(level, count)) {
     const int l = level[0];
-    readOneLevel(sizes.pool, sizes.width[l], sizes.height[l], sizes.offset[l], wrappedU,
-                 wrappedAcross, count, value);
-    return;
+    placeInLevel(sizes.width[l], sizes.height[l], sizes.offset[l], wrappedU, wrappedAcross, count,
+                 found);
+  } else {
+    placeInLevels(sizes, wrappedU, wrappedAcross, level, count, found);
   }
-  readTexels(sizes, wrappedU, wrappedAcross, level, count, value);
+  fetch(sizes.pool, count, found);
+  interpolate(found, count, value);
 }
 
 // First probe of every tap; others follow from the list.

@@ -29,10 +29,15 @@ struct StripGrain {
   /// Four neighbouring texels as bytes (128 is 0): here, right (round the seam), below and below
   /// right (the last row's own), so that one read brings all that a bilinear lookup needs.
   Plane<uint32_t> pool;
-  /// Rows are tones, brightest first; then the same at half, a quarter ... of the rows.
-  std::vector<Level> toneLevels;
+  /// Rows are tones, brightest first; then the same at half, a quarter ... of the rows. The first
+  /// level has a power of two of them, so that a level's rows and place follow from its number.
+  int toneRows = 1;
+  int lastToneLevel = 0;
   Plane<Rgba> colours;
 };
+
+/// First row of a level of tones in `colours`.
+inline int toneLevelRow(int toneRows, int level) { return 2 * (toneRows - (toneRows >> level)); }
 
 /// Takes a strip's full-size texels apart. Rows with less than a quarter of the strongest row's
 /// deviation have no strokes to speak of (cel bands) and are left out of the grain, so that it has
