@@ -1,5 +1,8 @@
 #pragma once
 
+#include <bit>
+#include <cstring>
+
 #include "passes/strip_lookup.h"
 
 // Lookups of a strip taken apart, inline for the brush pass's inner loops.
@@ -28,7 +31,15 @@ struct GrainPlace {
 inline GrainPlace grainPlace(float u, float halfAcross, int width, int height, int offset) {
   const RowPlace row = rowPlace(std::fabs(2.0f * halfAcross - 1.0f), height);
   const ColumnPlace column = columnPlace(u, width);
-  return {offset + row.upper * width + column.left, column.fraction, row.fraction};
+  return {offset + row.upper * (width + 1) + column.left, column.fraction, row.fraction};
+}
+
+/// Four texels round a place as bytes: here, right, below and below right.
+inline uint32_t fourTexels(const uint8_t* pool, int texel, int stride) {
+  uint16_t upper, lower;
+  std::memcpy(&upper, pool + texel, 2);
+  std::memcpy(&lower, pool + texel + stride, 2);
+  return upper | static_cast<uint32_t>(lower) << 16;
 }
 
 /// The grain between four packed texels.
@@ -45,7 +56,7 @@ inline float grainAt(const StripGrain& grain, size_t level, float u, float w) {
   const StripGrain::Level& l = grain.levels[level];
   const GrainPlace place =
       grainPlace(fractionOf(u), fractionOf(0.5f * w), l.width, l.height, l.offset);
-  return grainBetween(grain.pool.row(0)[place.texel], place.fx, place.fy);
+  return grainBetween(fourTexels(grain.pool.row(0), place.texel, l.stride()), place.fx, place.fy);
 }
 
 inline StripProbe grainProbe(const StripGrain& grain, const Footprint& f, int maxProbes) {

@@ -13,7 +13,7 @@ struct LevelSizes {
   static constexpr int most = 16;
   int width[most], height[most], offset[most];
   int last = 0;
-  const uint32_t* pool = nullptr;
+  const uint8_t* pool = nullptr;
 
   explicit LevelSizes(const StripGrain& grain)
       : last(static_cast<int>(grain.levels.size()) - 1), pool(grain.pool.row(0)) {
@@ -103,8 +103,13 @@ void placeInLevel(int width, int height, int offset, const float* __restrict u,
 }
 
 // One by one: gathering in vector registers costs more than it saves.
-void fetch(const uint32_t* pool, int count, Found& found) {
-  for (int i = 0; i < count; ++i) found.four[i] = pool[found.texel[i]];
+void fetch(const uint8_t* pool, int stride, int count, Found& found) {
+  for (int i = 0; i < count; ++i) found.four[i] = fourTexels(pool, found.texel[i], stride);
+}
+
+void fetch(const uint8_t* pool, const int* widths, const int* level, int count, Found& found) {
+  for (int i = 0; i < count; ++i)
+    found.four[i] = fourTexels(pool, found.texel[i], widths[level[i]] + 1);
 }
 
 KAGEFUDE_CLONES
@@ -131,10 +136,11 @@ void readLevels(const LevelSizes& sizes, const float* u, const float* across, co
     const int l = level[0];
     placeInLevel(sizes.width[l], sizes.height[l], sizes.offset[l], wrappedU, wrappedAcross, count,
                  found);
+    fetch(sizes.pool, sizes.width[l] + 1, count, found);
   } else {
     placeInLevels(sizes, wrappedU, wrappedAcross, level, count, found);
+    fetch(sizes.pool, sizes.width, level, count, found);
   }
-  fetch(sizes.pool, count, found);
   interpolate(found, count, value);
 }
 
@@ -163,6 +169,20 @@ void nextLevels(const int* __restrict level, int last, int count, int* __restric
   for (int i = 0; i < count; ++i) next[i] = level[i] < last ? level[i] + 1 : last;
 }
 
+KAGEFUDE_CLONES
+bool anyAbove(const float* __restrict values, int count) {
+  int above = 0;
+  for (int i = 0; i < count; ++i) above |= values[i] > 0.0f ? 1 : 0;
+  return above != 0;
+}
+
+KAGEFUDE_CLONES
+int largestOf(const int* __restrict values, int count) {
+  int largest = 0;
+  for (int i = 0; i < count; ++i) largest = values[i] > largest ? values[i] : largest;
+  return largest;
+}
+
 class GrainReader {
  public:
   GrainReader(const StripGrain& grain, GrainTaps& taps) : sizes_(grain), taps_(taps) {}
@@ -172,6 +192,7 @@ class GrainReader {
   void read() {
     for (int first = 0; first < taps_.count; first += brushBlock)
       readFirst(first, std::min(first + brushBlock, taps_.count));
+    if (largestOf(taps_.probes, taps_.count) < 2) return;
     for (int i = 0; i < taps_.count; ++i)
       for (int probe = 1; probe < taps_.probes[i]; ++probe) addProbe(i, probe);
     flush();
@@ -184,9 +205,7 @@ class GrainReader {
     const int count = end - first;
     placeFirst(taps_, first, count, u, across);
     readLevels(sizes_, u, across, taps_.level + first, count, taps_.value + first);
-    bool between = false;
-    for (int i = first; i < end; ++i) between |= taps_.coarser[i] > 0.0f;
-    if (!between) return;
+    if (!anyAbove(taps_.coarser + first, count)) return;
     nextLevels(taps_.level + first, sizes_.last, count, next);
     readLevels(sizes_, u, across, next, count, coarse);
     mixLevels(coarse, taps_.coarser + first, count, taps_.value + first);

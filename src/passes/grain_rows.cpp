@@ -60,12 +60,25 @@ void storeFour(const Rgba* four, int x, ColourRows& out) {
   std::memcpy(out.a + x, &planes[3], sizeof(Rgba));
 }
 
+// The common case: opaque strips at their own contrast, every pixel there.
+void storePlainly(const Strip& strip, const ColourPlaces& places, int first, int count,
+                  ColourRows& out) {
+  const Rgba* const colours = strip.grain.colours.row(0);
+  int i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const Rgba four[4] = {colourAt(colours, places, i), colourAt(colours, places, i + 1),
+                          colourAt(colours, places, i + 2), colourAt(colours, places, i + 3)};
+    storeFour(four, first + i, out);
+  }
+  for (; i < count; ++i) out.store(first + i, colourAt(colours, places, i));
+  std::fill_n(out.a + first, count, 1.0f);
+}
+
 void storeColours(const BrushInput& in, const Strip& strip, const BrushBlock& block,
                   const ColourPlaces& places, int first, int count, ColourRows& out) {
   const Rgba* const colours = strip.grain.colours.row(0);
   const float contrast = in.params.contrast;
   const bool opaque = strip.opaque;
-  Rgba four[4];
   for (int i = 0; i < count; ++i) {
     Rgba colour = colourAt(colours, places, i);
     if (contrast != 1.0f) {
@@ -74,10 +87,13 @@ void storeColours(const BrushInput& in, const Strip& strip, const BrushBlock& bl
       colour = colour > 0.0f ? colour : Rgba{};
     }
     if (opaque) colour[3] = 1.0f;
-    four[i & 3] = block.here.absent[i + 1] == 0.0f ? colour : Rgba{};
-    if ((i & 3) == 3) storeFour(four, first + i - 3, out);
+    out.store(first + i, block.here.absent[i + 1] == 0.0f ? colour : Rgba{});
   }
-  for (int i = count & ~3; i < count; ++i) out.store(first + i, four[i & 3]);
+}
+
+bool allPresent(const BrushBlock& block, int count) {
+  return std::all_of(block.here.absent + 1, block.here.absent + 1 + count,
+                     [](float absent) { return absent == 0.0f; });
 }
 
 }  // namespace
@@ -103,7 +119,10 @@ void paintObjectRow(const BrushInput& in, const BrushAnchor& anchor, int first, 
     listGrainTaps(in, anchor, aspect, count, block, taps);
     readGrain(strip.grain, in.params.maxProbes, taps, grain);
     placeColours(strip.grain.toneRows, strip.grain.lastToneLevel, block, grain, count, places);
-    storeColours(in, strip, block, places, x, count, out);
+    if (in.params.contrast == 1.0f && strip.opaque && allPresent(block, count))
+      storePlainly(strip, places, x, count, out);
+    else
+      storeColours(in, strip, block, places, x, count, out);
   }
 }
 

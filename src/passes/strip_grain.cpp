@@ -75,19 +75,16 @@ Floats halved(const Floats& fine) {
   return coarse;
 }
 
-uint32_t toByte(float grain) {
+uint8_t toByte(float grain) {
   const float steps = grain * (1.0f / StripGrain::perStep) + 128.5f;
-  return static_cast<uint32_t>(std::clamp(steps, 1.0f, 255.0f));
+  return static_cast<uint8_t>(std::clamp(steps, 1.0f, 255.0f));
 }
 
-void pack(const Floats& level, uint32_t* texels) {
+void pack(const Floats& level, uint8_t* texels) {
   const int width = level.width(), height = level.height();
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const int right = x + 1 < width ? x + 1 : 0, below = std::min(y + 1, height - 1);
-      *texels++ = toByte(level(x, y)) | toByte(level(right, y)) << 8 |
-                  toByte(level(x, below)) << 16 | toByte(level(right, below)) << 24;
-    }
+  for (int y = 0; y <= height; ++y)
+    for (int x = 0; x <= width; ++x)
+      *texels++ = toByte(level(x < width ? x : 0, std::min(y, height - 1)));
 }
 
 void packChain(Floats grain, StripGrain& result) {
@@ -98,9 +95,9 @@ void packChain(Floats grain, StripGrain& result) {
   int texels = 0;
   for (const Floats& level : chain) {
     result.levels.push_back({level.width(), level.height(), texels});
-    texels += level.width() * level.height();
+    texels += (level.width() + 1) * (level.height() + 1);
   }
-  result.pool = Plane<uint32_t>(texels, 1);
+  result.pool = Plane<uint8_t>(texels, 1);
   for (size_t i = 0; i < chain.size(); ++i)
     pack(chain[i], result.pool.row(0) + result.levels[i].offset);
 }

@@ -24,11 +24,13 @@ struct StripGrain {
   struct Level {
     int width = 0, height = 0;
     int offset = 0;  ///< of its first texel in `pool`
+
+    int stride() const { return width + 1; }
   };
   std::vector<Level> levels;  ///< full size first, 1 x 1 last, box-filtered
-  /// Four neighbouring texels as bytes (128 is 0): here, right (round the seam), below and below
-  /// right (the last row's own), so that one read brings all that a bilinear lookup needs.
-  Plane<uint32_t> pool;
+  /// Bytes, 128 is 0. Behind each row its first texel, behind the last row that row again, so that
+  /// the four texels of a bilinear lookup are two reads of two bytes.
+  Plane<uint8_t> pool;
   /// Rows are tones, brightest first; then the same at half, a quarter ... of the rows. The first
   /// level has a power of two of them, so that a level's rows and place follow from its number.
   int toneRows = 1;
