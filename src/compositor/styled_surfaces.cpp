@@ -75,9 +75,8 @@ bool matches(const StyleParams& style, const FramePlan& plan, const Surface& sur
 }
 
 const StyleLook* styleFor(const Look& look, const FramePlan& plan, const Surface& surface) {
-  for (const StyleLook& style : look.styles)
-    if (matches(style.style, plan, surface)) return &style;
-  return nullptr;
+  return chooseStyle(look.styles,
+                     [&](const StyleParams& style) { return matches(style, plan, surface); });
 }
 
 const FrameLight& lightFor(const FramePlan& plan, const StyleParams& style) {
@@ -113,6 +112,19 @@ VisibleBounds visibleBounds(const SurfaceIndex& index, size_t number, Vec3View p
   return bounds;
 }
 
+/// Width of a pixel at a point in the world; 0 where it is not known. Never less than at a tenth of
+/// the scene's distance: a ground's middle may lie beside or behind the camera.
+float pixelWidthAt(const FramePlan& plan, const V3f& point, const V3f& sceneCentre) {
+  if (!plan.sidecar || plan.image.displayWindow.width <= 0) return 0;
+  const Camera& camera = plan.sidecar->camera;
+  const double scale = camera.clipFromCamera.m[0][0] * plan.image.displayWindow.width;
+  if (!(scale > 0)) return 0;
+  if (!camera.perspective) return static_cast<float>(2 / scale);
+  const double depth = -camera.cameraFromWorld.point(V3d(point)).z;
+  const double sceneDepth = -camera.cameraFromWorld.point(V3d(sceneCentre)).z;
+  return static_cast<float>(std::max(std::max(depth, 0.1 * sceneDepth), 0.0) * 2 / scale);
+}
+
 BrushSubject subjectOf(const StyleParams& style, const FramePlan& plan, const FrameLight& light,
                        const SurfaceIndex& index, size_t number, const FramePlanes& frame,
                        std::vector<std::string>& warnings) {
@@ -140,6 +152,11 @@ BrushSubject subjectOf(const StyleParams& style, const FramePlan& plan, const Fr
   }
   if (object)
     for (const V3d& point : object->referencePoints) subject.referencePoints.push_back(V3f(point));
+  const V3d middle = (V3d(subject.boundsMin) + V3d(subject.boundsMax)) * 0.5;
+  const V3f centre = subject.flat && light.subjectRadius > 0
+                         ? light.subjectCentre
+                         : V3f(subject.worldFromObject.point(middle));
+  subject.worldPerPixel = pixelWidthAt(plan, centre, light.subjectCentre);
   if (!style.reference.empty())
     subject.referencePoints = {V3f(style.reference[0], style.reference[1], style.reference[2])};
   return subject;

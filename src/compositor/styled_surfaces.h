@@ -20,7 +20,7 @@ struct StyledSurfaces {
   std::vector<std::optional<V3f>> outlines;  ///< per anchor: colour of its outlines
 };
 
-/// Gives every object (and material, where styles ask) the first style that matches, or the look's
+/// Gives every object (and material, where styles ask) the style that matches (chooseStyle), or the look's
 /// own brush with the built-in strip, and lays its anchor by the sidecar's bounds and reference
 /// point. Objects that no sidecar describes are anchored at the middle of their visible pixels'
 /// bounds; `plan.warnings` is the caller's to extend with the returned `warnings`. Anchors are

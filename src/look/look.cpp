@@ -124,6 +124,15 @@ std::string Look::colourConfig() const {
   return colour.config.empty() ? std::string() : resolve(colour.config).string();
 }
 
+const StyleLook* chooseStyle(const std::vector<StyleLook>& styles,
+                             const std::function<bool(const StyleParams&)>& matches) {
+  const StyleLook* chosen = nullptr;
+  for (const StyleLook& style : styles)
+    if ((!chosen || style.style.priority > chosen->style.priority) && matches(style.style))
+      chosen = &style;
+  return chosen;
+}
+
 Look readLook(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   toml::table root = parseFile(path);
   for (const std::string& text : overrides) applyOverride(root, text);

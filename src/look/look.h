@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct StyleLook {
 };
 
 /// A look file with every value resolved. Lights and styles keep the file's order; for a light the
-/// last that matches holds, for a surface the first style that matches.
+/// last that matches holds, for a surface the style that chooseStyle finds.
 struct Look {
   std::filesystem::path folder;  ///< paths in the look are relative to it
   AovNames frame;
@@ -40,6 +41,11 @@ struct Look {
   /// The OCIO config that the look names, resolved; "" when it names none.
   std::string colourConfig() const;
 };
+
+/// The style that holds for a surface: of those that match the one of the highest priority, of
+/// equal ones the first in the file; null when none matches.
+const StyleLook* chooseStyle(const std::vector<StyleLook>& styles,
+                             const std::function<bool(const StyleParams&)>& matches);
 
 /// Reads a look file and lays `overrides` ("section.key=value", also "style[0].brush.key=value")
 /// over it. An empty path gives the defaults. Throws LookError with file:line.

@@ -119,6 +119,7 @@ struct StyleParams {
   std::vector<std::string> object;
   std::vector<std::string> material;
   int index = 0;
+  int priority = 0;
   std::string strip = "builtin:neutral";
   StripColour colour = StripColour::automatic;
   std::vector<float> reference;
@@ -130,6 +131,10 @@ inline constexpr Parameter styleParameters[] = {
     plain<&StyleParams::material>("material", "names or globs of materials that the style paints"),
     number<&StyleParams::index>("index", 0, 1 << 24, "",
                                 "object index that the style paints; 0: by name only"),
+    number<&StyleParams::priority>(
+        "priority", -1000, 1000, "",
+        "of several styles that match a surface the highest holds; of equal "
+        "ones the first in the look"),
     plain<&StyleParams::strip>(
         "strip",
         "picture of the strip, relative to the look, or builtin:neutral, :soft, :fine, :cel"),

@@ -53,8 +53,9 @@ float automaticMappingDistance(const BrushSubject& subject);
 /// Everything applyBrush needs of one subject. Frames as the mapping asks: the seed's or the
 /// turning one; over a flat subject V is the plane's normal away from the light, under any light.
 /// With `size = screen` and a known worldPerPixel, Md follows the pixel's width in octaves of the
-/// object's own Md, `coarser` fading between two: continuous under zoom, nothing slides. In the same
-/// way an automatic Md of a flat subject larger than the scene follows a quarter of the scene's radius.
+/// object's own Md, `coarser` fading between two: continuous under zoom, nothing slides. In the
+/// same way an automatic Md of a flat subject larger than the scene follows a quarter of the
+/// scene's radius.
 BrushAnchor makeBrushAnchor(const BrushSubject& subject, const Light& light,
                             const BrushParams& params);
 

@@ -59,9 +59,10 @@ void unitNormals(const float* nx, const float* ny, const float* nz, int count, B
     const float length = std::sqrt(nx[i] * nx[i] + ny[i] * ny[i] + nz[i] * nz[i]);
     const float sum = nx[i] + ny[i] + nz[i];
     const float finite = sum - sum == 0.0f ? length : 0.0f;
-    ox[i] = finite > 0.0f ? nx[i] / length : 0.0f;
-    oy[i] = finite > 0.0f ? ny[i] / length : 0.0f;
-    oz[i] = finite > 0.0f ? nz[i] / length : 0.0f;
+    const float scale = finite > 0.0f ? 1.0f / finite : 0.0f;
+    ox[i] = finite > 0.0f ? nx[i] * scale : 0.0f;
+    oy[i] = finite > 0.0f ? ny[i] * scale : 0.0f;
+    oz[i] = finite > 0.0f ? nz[i] * scale : 0.0f;
   }
 }
 
@@ -164,8 +165,8 @@ void gainContrast(float contrast, float octaves, float keep, int count, BrushBlo
 
 }  // namespace
 
-void prepareBlock(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,
-                  BrushBlock& block) {
+void loadBlock(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,
+               BrushBlock& block) {
   const int count = end - first;
   const uint16_t own = in.index(first, y);
   loadLine(in, first, end, y - 1, own, block.above);
@@ -182,6 +183,12 @@ void prepareBlock(const BrushInput& in, const BrushAnchor& anchor, int first, in
   changes(block.here, block.below, 1, block.above, 1, count, block.down);
   const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
   for (int k = 0; k < 3; ++k) placesAlong(axes[k], anchor.object.origin, count, k, block);
+}
+
+void prepareBlock(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,
+                  BrushBlock& block) {
+  loadBlock(in, anchor, first, end, y, block);
+  const int count = end - first;
   const float finer = 1.0f - anchor.coarser;
   weighAxes(anchor.points[0].frame.axis, anchor.points[0].position, anchor.object,
             heldNearAxis * anchor.mappingDistance, count, block);

@@ -29,7 +29,12 @@ struct BrushBlock {
   alignas(64) float meanGain[brushBlock];
 };
 
-/// Fills the block for the pixels [first, end) of row y, at most brushBlock of them.
+/// Fills what depends on the pixels alone: all but the weights and gains. For the pixels
+/// [first, end) of row y, at most brushBlock of them.
+void loadBlock(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,
+               BrushBlock& block);
+
+/// The same, with weights and gains of strokes that run along the tone.
 void prepareBlock(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,
                   BrushBlock& block);
 

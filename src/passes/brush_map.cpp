@@ -7,6 +7,7 @@
 #include "passes/brush_pixel.h"
 #include "passes/brush_rows.h"
 #include "passes/brush_taps.h"
+#include "passes/grain_rows.h"
 
 namespace kagefude {
 namespace {
@@ -55,7 +56,9 @@ void paintRow(const BrushInput& in, int y, ColourRows& out) {
     int end = x + 1;
     while (end < in.index.width && index[end] == index[x]) ++end;
     const bool known = index[x] > 0 && index[x] <= in.anchors.size();
-    if (known && canPaintHeldRow(in, in.anchors[index[x] - 1]))
+    if (known && canPaintObjectRow(in))
+      paintObjectRow(in, in.anchors[index[x] - 1], x, end, y, out);
+    else if (known && canPaintHeldRow(in, in.anchors[index[x] - 1]))
       paintHeldRow(in, in.anchors[index[x] - 1], x, end, y, out);
     else
       paintPlainly(in, x, end, y, out);
@@ -63,31 +66,35 @@ void paintRow(const BrushInput& in, int y, ColourRows& out) {
   }
 }
 
+void fit(Floats& plane, View<const float> like) {
+  if (plane.width() != like.width || plane.height() != like.height)
+    plane = Floats(like.width, like.height);
+}
+
 }  // namespace
 
-BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
-                       View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
-                       std::span<const Strip> strips, const BrushParams& params) {
+void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
+                View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
+                std::span<const Strip> strips, const BrushParams& params, BrushResult& result) {
   const BrushInput in{position, normal, tone, anchorIndex, anchors, strips, params};
   checkAnchors(in);
-  const int width = tone.width, height = tone.height;
-  BrushResult result{Floats(width, height),
-                     Floats(width, height),
-                     Floats(width, height),
-                     Floats(width, height),
-                     Floats(),
-                     Floats()};
-  if (params.diagnostics) {
-    result.angle = Floats(width, height);
-    result.repeat = Floats(width, height);
-  }
-  parallelRows(height, [&](int first, int end) {
+  for (Floats* plane : {&result.r, &result.g, &result.b, &result.a}) fit(*plane, tone);
+  if (params.diagnostics)
+    for (Floats* plane : {&result.angle, &result.repeat}) fit(*plane, tone);
+  parallelRows(tone.height, [&](int first, int end) {
     for (int y = first; y < end; ++y) {
       ColourRows out{result.r.row(y), result.g.row(y), result.b.row(y), result.a.row(y)};
       paintRow(in, y, out);
       if (params.diagnostics) writeDiagnostics(in, y, result);
     }
   });
+}
+
+BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
+                       View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
+                       std::span<const Strip> strips, const BrushParams& params) {
+  BrushResult result;
+  applyBrush(position, normal, tone, anchorIndex, anchors, strips, params, result);
   return result;
 }
 

@@ -39,4 +39,10 @@ BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> ton
                        View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
                        std::span<const Strip> strips, const BrushParams& params);
 
+/// The same into planes that are there already; they are made anew where they are empty or of another
+/// size (fresh memory costs about as much as painting it).
+void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
+                View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
+                std::span<const Strip> strips, const BrushParams& params, BrushResult& result);
+
 }  // namespace kagefude

@@ -56,12 +56,6 @@ void strokeParts(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
   }
 }
 
-// Weight of one of several patterns by its part against the largest's.
-float excessShare(float part, float largest) {
-  const float excess = part / largest - axisThreshold;
-  return excess > 0.0f ? excess * excess : 0.0f;
-}
-
 }  // namespace
 
 BrushPlace brushPlace(const BrushAnchor& anchor, const V3f& p, float blend) {
@@ -122,9 +116,9 @@ void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Bru
   const V3f q = pixel.position - anchor.object.origin;
   float place[3], placeDx[3], placeDy[3];
   for (int k = 0; k < 3; ++k) {
-    place[k] = axes[k].dot(q) * perUnit;
-    placeDx[k] = axes[k].dot(pixel.dx) * perUnit;
-    placeDy[k] = axes[k].dot(pixel.dy) * perUnit;
+    place[k] = axes[k].dot(q);
+    placeDx[k] = axes[k].dot(pixel.dx);
+    placeDy[k] = axes[k].dot(pixel.dy);
   }
   for (int k = 0; k < 3; ++k) {
     const float faces = excessShare(facing[k], mostFacing);
@@ -144,8 +138,8 @@ void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Bru
         taps.add(place[i] * unit + (axisOffset[i] + shift), faces * share[side] * octave,
                  {placeDx[i] * unit, placeDx[j] * down, placeDy[i] * unit, placeDy[j] * down});
       };
-      add(1.0f, anchor.shift, 1.0f - anchor.coarser);
-      add(0.5f, anchor.coarserShift, anchor.coarser);
+      add(perUnit, anchor.shift, 1.0f - anchor.coarser);
+      add(0.5f * perUnit, anchor.coarserShift, anchor.coarser);
     }
   }
 }

@@ -18,6 +18,13 @@ inline constexpr float leastFacing = 1e-12f;
 /// Distance from the light axis, in mapping distances, within which the three axes weigh alike.
 inline constexpr float heldNearAxis = 0.05f;
 
+/// Weight of one of several patterns by its part against the largest's.
+inline float excessShare(float part, float largest) {
+  const float excess = part / largest - axisThreshold;
+  const float positive = excess > 0.0f ? excess : 0.0f;
+  return positive * positive;
+}
+
 /// One pixel of the brush pass: place, normal (zero: unknown), tone, and their change to the next
 /// pixel in x and y.
 struct BrushPixel {

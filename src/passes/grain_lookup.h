@@ -1,9 +1,24 @@
 #pragma once
 
+#include <bit>
+#include <cstring>
+
 #include "passes/strip_lookup.h"
 
 // Lookups of a strip taken apart, inline for the brush pass's inner loops.
 namespace kagefude {
+
+/// As probeTolerance: strokes are soft and few probes enough, most surfaces are read with one.
+inline constexpr float grainTolerance = 0.75f;
+
+/// Share of the step between two levels over which one fades into the other; beside it one level is
+/// read alone.
+inline constexpr float levelFade = 0.4f;
+inline float levelShare(float between) {
+  const float share = (between - 0.5f) * (1.0f / levelFade) + 0.5f;
+  const float above = share > 0.0f ? share : 0.0f;
+  return above < 1.0f ? above : 1.0f;
+}
 
 /// Where a lookup lies in one level of the grain: its texel and the shares of the next ones.
 struct GrainPlace {
@@ -11,12 +26,20 @@ struct GrainPlace {
   float fx = 0, fy = 0;
 };
 
-/// u in turns; w in heights of the grain, running back and forth: rows have no seam to hide.
-inline GrainPlace grainPlace(float u, float w, int width, int height, int offset) {
-  const float twice = 2.0f * fractionOf(0.5f * w);
-  const RowPlace row = rowPlace(twice > 1.0f ? twice - 1.0f : 1.0f - twice, height);
-  const ColumnPlace column = columnPlace(fractionOf(u), width);
-  return {offset + row.upper * width + column.left, column.fraction, row.fraction};
+/// u in turns, [0, 1); half the place across the strokes in heights of the grain, [0, 1): it runs
+/// back and forth, for rows have no seam to hide.
+inline GrainPlace grainPlace(float u, float halfAcross, int width, int height, int offset) {
+  const RowPlace row = rowPlace(std::fabs(2.0f * halfAcross - 1.0f), height);
+  const ColumnPlace column = columnPlace(u, width);
+  return {offset + row.upper * (width + 1) + column.left, column.fraction, row.fraction};
+}
+
+/// Four texels round a place as bytes: here, right, below and below right.
+inline uint32_t fourTexels(const uint8_t* pool, int texel, int stride) {
+  uint16_t upper, lower;
+  std::memcpy(&upper, pool + texel, 2);
+  std::memcpy(&lower, pool + texel + stride, 2);
+  return upper | static_cast<uint32_t>(lower) << 16;
 }
 
 /// The grain between four packed texels.
@@ -31,20 +54,24 @@ inline float grainBetween(uint32_t four, float fx, float fy) {
 
 inline float grainAt(const StripGrain& grain, size_t level, float u, float w) {
   const StripGrain::Level& l = grain.levels[level];
-  const GrainPlace place = grainPlace(u, w, l.width, l.height, l.offset);
-  return grainBetween(grain.pool.row(0)[place.texel], place.fx, place.fy);
+  const GrainPlace place =
+      grainPlace(fractionOf(u), fractionOf(0.5f * w), l.width, l.height, l.offset);
+  return grainBetween(fourTexels(grain.pool.row(0), place.texel, l.stride()), place.fx, place.fy);
 }
 
 inline StripProbe grainProbe(const StripGrain& grain, const Footprint& f, int maxProbes) {
-  return probeTexels(grain.levels.front().width, grain.levels.front().height, f, maxProbes);
+  return probeTexels(grain.levels.front().width, grain.levels.front().height, f, maxProbes,
+                     grainTolerance);
 }
 
 /// Mean of the probes round (u, w), each between two levels.
 inline float lookUpGrain(const StripGrain& grain, float u, float w, const StripProbe& probe) {
   const float last = static_cast<float>(grain.levels.size() - 1);
   const float lod = probe.lod < last ? probe.lod : last;
-  const auto fine = static_cast<size_t>(lod);
-  const float coarser = lod - static_cast<float>(fine);
+  const auto whole = static_cast<size_t>(lod);
+  const float share = levelShare(lod - static_cast<float>(whole));
+  const size_t fine = whole + (share >= 1.0f ? 1 : 0);
+  const float coarser = share >= 1.0f ? 0.0f : share;
   const float middle = 0.5f * static_cast<float>(probe.count - 1);
   float sum = 0;
   for (int i = 0; i < probe.count; ++i) {
@@ -56,11 +83,13 @@ inline float lookUpGrain(const StripGrain& grain, float u, float w, const StripP
   return sum / static_cast<float>(probe.count);
 }
 
-/// Tone levels by how many of the finest level's rows one pixel's change of tone crosses.
+/// Level of tones by how many of the finest level's rows one pixel's change of tone crosses: the
+/// nearest power of two, from the number's exponent.
 inline int toneLevel(float change, int rows, int lastLevel) {
-  const float crossed = change * static_cast<float>(rows);
-  const int level = crossed > 1.0f ? static_cast<int>(log2Of(crossed) + 0.5f) : 0;
-  return level < lastLevel ? level : lastLevel;
+  const float crossed = change * static_cast<float>(rows) * 1.41421356f;
+  const int level = (std::bit_cast<int>(crossed) >> 23) - 127;
+  const int positive = level > 0 ? level : 0;
+  return positive < lastLevel ? positive : lastLevel;
 }
 
 /// Column of the colours left of a grain, and the share of the next one.
@@ -74,15 +103,14 @@ inline float grainColumn(float grain) {
 
 /// Colour of a grain at a tone; `change` is the tone's change over the pixel.
 inline Rgba grainColour(const StripGrain& grain, float tone, float value, float change) {
-  const int last = static_cast<int>(grain.toneLevels.size()) - 1;
-  const int level = toneLevel(change, grain.toneLevels.front().height, last);
-  const StripGrain::Level& l = grain.toneLevels[static_cast<size_t>(level)];
-  const RowPlace row = rowPlace(tone, l.height);
+  const int level = toneLevel(change, grain.toneRows, grain.lastToneLevel);
+  const RowPlace row = rowPlace(tone, grain.toneRows >> level);
+  const int first = toneLevelRow(grain.toneRows, level);
   const float at = grainColumn(value);
   const int whole = static_cast<int>(at);
   const int left = whole < StripGrain::columns - 1 ? whole : StripGrain::columns - 2;
-  const Rgba* upper = grain.colours.row(0) + l.offset + row.upper * StripGrain::columns + left;
-  const Rgba* lower = grain.colours.row(0) + l.offset + row.lower * StripGrain::columns + left;
+  const Rgba* upper = grain.colours.row(first + row.upper) + left;
+  const Rgba* lower = grain.colours.row(first + row.lower) + left;
   return mixFour(upper[0], upper[1], lower[0], lower[1], at - static_cast<float>(left),
                  row.fraction);
 }

@@ -75,19 +75,16 @@ Floats halved(const Floats& fine) {
   return coarse;
 }
 
-uint32_t toByte(float grain) {
+uint8_t toByte(float grain) {
   const float steps = grain * (1.0f / StripGrain::perStep) + 128.5f;
-  return static_cast<uint32_t>(std::clamp(steps, 1.0f, 255.0f));
+  return static_cast<uint8_t>(std::clamp(steps, 1.0f, 255.0f));
 }
 
-void pack(const Floats& level, uint32_t* texels) {
+void pack(const Floats& level, uint8_t* texels) {
   const int width = level.width(), height = level.height();
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const int right = x + 1 < width ? x + 1 : 0, below = std::min(y + 1, height - 1);
-      *texels++ = toByte(level(x, y)) | toByte(level(right, y)) << 8 |
-                  toByte(level(x, below)) << 16 | toByte(level(right, below)) << 24;
-    }
+  for (int y = 0; y <= height; ++y)
+    for (int x = 0; x <= width; ++x)
+      *texels++ = toByte(level(x < width ? x : 0, std::min(y, height - 1)));
 }
 
 void packChain(Floats grain, StripGrain& result) {
@@ -98,9 +95,9 @@ void packChain(Floats grain, StripGrain& result) {
   int texels = 0;
   for (const Floats& level : chain) {
     result.levels.push_back({level.width(), level.height(), texels});
-    texels += level.width() * level.height();
+    texels += (level.width() + 1) * (level.height() + 1);
   }
-  result.pool = Plane<uint32_t>(texels, 1);
+  result.pool = Plane<uint8_t>(texels, 1);
   for (size_t i = 0; i < chain.size(); ++i)
     pack(chain[i], result.pool.row(0) + result.levels[i].offset);
 }
@@ -146,34 +143,34 @@ void rankRow(const Rgba* texels, int width, const std::vector<float>& shares, Rg
   }
 }
 
-Plane<Rgba> halvedRows(const Plane<Rgba>& fine) {
-  const int height = std::max(1, fine.height() / 2);
-  Plane<Rgba> coarse(fine.width(), height);
-  for (int y = 0; y < height; ++y) {
-    const int y0 = y * fine.height() / height, y1 = (y + 1) * fine.height() / height;
-    for (int x = 0; x < fine.width(); ++x) {
+/// Fewer rows, by area.
+void shrinkRows(View<const Rgba> fine, View<Rgba> coarse) {
+  const double scale = static_cast<double>(fine.height) / coarse.height;
+  for (int y = 0; y < coarse.height; ++y)
+    for (int x = 0; x < coarse.width; ++x) {
       Rgba sum{};
-      for (int j = y0; j < y1; ++j) sum += fine(x, j);
-      coarse(x, y) = sum * (1.0f / static_cast<float>(y1 - y0));
+      for (int j = static_cast<int>(y * scale); j < fine.height && j < (y + 1) * scale; ++j) {
+        const double share =
+            std::min<double>(j + 1, (y + 1) * scale) - std::max<double>(j, y * scale);
+        sum += fine(x, j) * static_cast<float>(share / scale);
+      }
+      coarse(x, y) = sum;
     }
-  }
-  return coarse;
 }
 
-void packColours(Plane<Rgba> ranked, StripGrain& result) {
-  std::vector<Plane<Rgba>> chain;
-  chain.push_back(std::move(ranked));
-  while (chain.back().height() > mostToneRows) chain.back() = halvedRows(chain.back());
-  while (chain.back().height() > 1) chain.push_back(halvedRows(chain.back()));
-  int texels = 0;
-  for (const Plane<Rgba>& level : chain) {
-    result.toneLevels.push_back({level.width(), level.height(), texels});
-    texels += level.width() * level.height();
+void packColours(View<const Rgba> ranked, StripGrain& result) {
+  while (2 * result.toneRows <= std::min(ranked.height, mostToneRows)) {
+    result.toneRows *= 2;
+    ++result.lastToneLevel;
   }
-  result.colours = Plane<Rgba>(texels, 1);
-  for (size_t i = 0; i < chain.size(); ++i)
-    std::copy_n(chain[i].row(0), chain[i].view().pixels(),
-                result.colours.row(0) + result.toneLevels[i].offset);
+  result.colours = Plane<Rgba>(StripGrain::columns, 2 * result.toneRows);
+  View<const Rgba> finer = ranked;
+  for (int level = 0; level <= result.lastToneLevel; ++level) {
+    const View<Rgba> rows(result.colours.row(toneLevelRow(result.toneRows, level)),
+                          StripGrain::columns, result.toneRows >> level);
+    shrinkRows(finer, rows);
+    finer = rows;
+  }
 }
 
 }  // namespace
@@ -186,7 +183,7 @@ StripGrain makeStripGrain(View<const Rgba> texels) {
   parallelRows(texels.height, [&](int first, int end) {
     for (int y = first; y < end; ++y) rankRow(texels.row(y), texels.width, shares, ranked.row(y));
   });
-  packColours(std::move(ranked), result);
+  packColours(ranked, result);
   packChain(std::move(grain), result);
   return result;
 }

@@ -24,15 +24,22 @@ struct StripGrain {
   struct Level {
     int width = 0, height = 0;
     int offset = 0;  ///< of its first texel in `pool`
+
+    int stride() const { return width + 1; }
   };
   std::vector<Level> levels;  ///< full size first, 1 x 1 last, box-filtered
-  /// Four neighbouring texels as bytes (128 is 0): here, right (round the seam), below and below
-  /// right (the last row's own), so that one read brings all that a bilinear lookup needs.
-  Plane<uint32_t> pool;
-  /// Rows are tones, brightest first; then the same at half, a quarter ... of the rows.
-  std::vector<Level> toneLevels;
+  /// Bytes, 128 is 0. Behind each row its first texel, behind the last row that row again, so that
+  /// the four texels of a bilinear lookup are two reads of two bytes.
+  Plane<uint8_t> pool;
+  /// Rows are tones, brightest first; then the same at half, a quarter ... of the rows. The first
+  /// level has a power of two of them, so that a level's rows and place follow from its number.
+  int toneRows = 1;
+  int lastToneLevel = 0;
   Plane<Rgba> colours;
 };
+
+/// First row of a level of tones in `colours`.
+inline int toneLevelRow(int toneRows, int level) { return 2 * (toneRows - (toneRows >> level)); }
 
 /// Takes a strip's full-size texels apart. Rows with less than a quarter of the strongest row's
 /// deviation have no strokes to speak of (cel bands) and are left out of the grain, so that it has

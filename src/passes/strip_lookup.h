@@ -17,14 +17,12 @@ struct StripProbe {
   int count = 1;
 };
 
-/// u - floor(u) in [0, 1) without a call; u is taken as 0 beyond the reach of whole floats.
+/// u - floor(u) in [0, 1); 0 where u is no number or beyond the reach of fractions. Guards against
+/// constants would be threaded into branches, and loops over pixels would not vectorise.
 inline float fractionOf(float u) {
-  const float safe = std::fabs(u) < 8388608.0f ? u : 0.0f;
-  const float whole = static_cast<float>(static_cast<int>(safe));
-  const float fraction = safe - whole;
-  const float positive = fraction + static_cast<float>(fraction < 0.0f);
+  const float fraction = u - std::floor(u);
   // Rounding can lift a tiny negative u to 1 exactly.
-  return positive * static_cast<float>(positive < 1.0f);
+  return fraction < 1.0f ? fraction : 0.0f;
 }
 
 /// Two neighbouring rows of a level, and the share of the lower one.
@@ -96,7 +94,8 @@ inline constexpr float probeTolerance = 0.25f;
 /// axis picks the level. `width`, `height`: of the full-size strip. Without branches, so that loops
 /// over pixels vectorise; `probes` is a whole number.
 inline void probeEllipse(float ux, float vx, float uy, float vy, float width, float height,
-                         float maxProbes, float& probes, float& lod, float& stepU, float& stepV) {
+                         float maxProbes, float& probes, float& lod, float& stepU, float& stepV,
+                         float tolerance = probeTolerance) {
   const float a = ux * ux + uy * uy, b = ux * vx + uy * vy, c = vx * vx + vy * vy;
   const float spread = std::sqrt((a - c) * (a - c) + 4.0f * b * b);
   const float longest = std::sqrt(0.5f * (a + c + spread));
@@ -105,10 +104,10 @@ inline void probeEllipse(float ux, float vx, float uy, float vy, float width, fl
   const float area = std::fabs(ux * vy - uy * vx);
   const float narrow = large ? area / longest : 0.0f;
   const float shortest = narrow > bilinearWidth ? narrow : bilinearWidth;
-  const float wanted = large ? std::ceil(longest / shortest - probeTolerance) : 1.0f;
+  const float wanted = large ? std::ceil(longest / shortest - tolerance) : 1.0f;
   probes = wanted < maxProbes ? wanted : maxProbes;
   const float share = longest / probes;
-  const float reach = share * (1.0f / (1.0f + probeTolerance));
+  const float reach = share * (1.0f / (1.0f + tolerance));
   const float level = log2Of(large ? (shortest > reach ? shortest : reach) : 1.0f) - 0.5f;
   lod = level > 1e-6f ? level : 0.0f;
   // Of the two expressions for the long axis's direction, the one without cancellation.
@@ -120,12 +119,13 @@ inline void probeEllipse(float ux, float vx, float uy, float vy, float width, fl
   stepV = step > 0.0f ? dv * step / height : 0.0f;
 }
 
-inline StripProbe probeTexels(int width, int height, const Footprint& f, int maxProbes) {
+inline StripProbe probeTexels(int width, int height, const Footprint& f, int maxProbes,
+                              float tolerance = probeTolerance) {
   const float w = static_cast<float>(width), h = static_cast<float>(height);
   StripProbe probe;
   float probes;
   probeEllipse(f.ux * w, f.vx * h, f.uy * w, f.vy * h, w, h, static_cast<float>(maxProbes), probes,
-               probe.lod, probe.stepU, probe.stepV);
+               probe.lod, probe.stepU, probe.stepV, tolerance);
   probe.count = static_cast<int>(probes);
   return probe;
 }

@@ -16,8 +16,8 @@ namespace {
 class LookFile : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("kagefude_look_" + std::to_string(::getpid()));
+    folder_ =
+        std::filesystem::temp_directory_path() / ("kagefude_look_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
@@ -111,8 +111,9 @@ TEST_F(LookFile, AMissingFileIsNamed) {
 }
 
 TEST_F(LookFile, ResolvedTextReadsBackToItself) {
-  const Look look = read("[[light]]\nname=\"K\\\"ey\"\nposition=[1,2,3.5]\n[smooth]\nh=7\n"
-                         "[[style]]\nobject=[\"A\",\"B\"]\n");
+  const Look look = read(
+      "[[light]]\nname=\"K\\\"ey\"\nposition=[1,2,3.5]\n[smooth]\nh=7\n"
+      "[[style]]\nobject=[\"A\",\"B\"]\n");
   const std::string text = resolvedText(look);
   EXPECT_EQ(resolvedText(read(text)), text);
 }
@@ -134,6 +135,19 @@ TEST(PassList, NamesAreUniqueAndDefaultsLieInTheirRanges) {
       }
     }
   }
+}
+
+TEST_F(LookFile, HighestPriorityHoldsThenTheFirst) {
+  const Look look = read(
+      "[[style]]\nobject=\"*\"\nstrip=\"a\"\n[[style]]\nobject=\"*\"\nstrip=\"b\"\n"
+      "priority=2\n[[style]]\nobject=\"*\"\nstrip=\"c\"\npriority=2\n");
+  const auto all = [](const StyleParams&) { return true; };
+  EXPECT_EQ(chooseStyle(look.styles, all)->style.strip, "b");
+  const auto notB = [](const StyleParams& style) { return style.strip != "b"; };
+  EXPECT_EQ(chooseStyle(look.styles, notB)->style.strip, "c");
+  const auto onlyA = [](const StyleParams& style) { return style.strip == "a"; };
+  EXPECT_EQ(chooseStyle(look.styles, onlyA)->style.strip, "a");
+  EXPECT_EQ(chooseStyle(look.styles, [](const StyleParams&) { return false; }), nullptr);
 }
 
 }  // namespace

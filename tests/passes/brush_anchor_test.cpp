@@ -84,8 +84,27 @@ TEST(BrushAnchor, MappingDistanceFollowsTheObject) {
   BrushSubject ground = boxOf({100, 100, 0});
   ground.flat = true;
   ground.sceneRadius = 4;
-  EXPECT_FLOAT_EQ(makeBrushAnchor(ground, {}, {}).mappingDistance, 1.0f);
+  // A quarter of the scene's radius is 1; 25 / 32 is the nearest octave of the ground's own 25.
+  EXPECT_FLOAT_EQ(makeBrushAnchor(ground, {}, {}).mappingDistance, 0.78125f);
+  EXPECT_EQ(makeBrushAnchor(ground, {}, {}).coarser, 0.0f);
   EXPECT_FLOAT_EQ(makeBrushAnchor({}, {}, {}).mappingDistance, 1.0f) << "nothing is known";
+}
+
+TEST(BrushAnchor, GroundDoesNotSwimWhenTheScenesSizeChanges) {
+  BrushSubject ground = boxOf({100, 100, 0});
+  ground.flat = true;
+  float size = 0;
+  for (int i = 0; i <= 200; ++i) {
+    ground.sceneRadius = 4 * exp2Of(static_cast<float>(i) / 100);
+    const BrushAnchor anchor = makeBrushAnchor(ground, {}, {});
+    const float octave = log2Of(anchor.mappingDistance / 25);
+    ASSERT_NEAR(octave, std::round(octave), 1e-5) << "strokes slide within an octave";
+    const float coarseness = octave + anchor.coarser;
+    if (i > 0) {
+      ASSERT_LT(std::fabs(coarseness - size), 0.06f) << i << ": one size fades into the next";
+    }
+    size = coarseness;
+  }
 }
 
 TEST(BrushAnchor, ScreenSizeFollowsThePixelInOctaves) {

@@ -1,0 +1,129 @@
+#include "passes/grain_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "image/clones.h"
+#include "passes/grain_block.h"
+#include "passes/grain_lookup.h"
+
+namespace kagefude {
+namespace {
+
+/// Where each pixel's colour lies.
+struct ColourPlaces {
+  alignas(64) int texel[brushBlock], down[brushBlock];
+  alignas(64) float fx[brushBlock], fy[brushBlock];
+};
+
+KAGEFUDE_CLONES
+void placeColours(int rows, int lastLevel, const BrushBlock& block, const float* __restrict grain,
+                  int count, ColourPlaces& places) {
+  int* __restrict texel = places.texel, * __restrict down = places.down;
+  float* __restrict fx = places.fx, * __restrict fy = places.fy;
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    const float across = std::fabs(block.across.tone[i]), below = std::fabs(block.down.tone[i]);
+    const int level = toneLevel(across > below ? across : below, rows, lastLevel);
+    const RowPlace row = rowPlace(block.here.tone[i + 1], rows >> level);
+    const float at = grainColumn(grain[i]);
+    const int whole = static_cast<int>(at);
+    const int left = whole < StripGrain::columns - 1 ? whole : StripGrain::columns - 2;
+    texel[i] = (toneLevelRow(rows, level) + row.upper) * StripGrain::columns + left;
+    down[i] = (row.lower - row.upper) * StripGrain::columns;
+    fx[i] = at - static_cast<float>(left);
+    fy[i] = row.fraction;
+  }
+}
+
+Rgba colourAt(const Rgba* colours, const ColourPlaces& places, int i) {
+  const Rgba* upper = colours + places.texel[i];
+  const Rgba* lower = upper + places.down[i];
+  return mixFour(upper[0], upper[1], lower[0], lower[1], places.fx[i], places.fy[i]);
+}
+
+// Four colours to four pixels of each plane.
+void storeFour(const Rgba* four, int x, ColourRows& out) {
+  using Mask = int __attribute__((vector_size(16)));
+  const Rgba rg01 = __builtin_shuffle(four[0], four[1], Mask{0, 4, 1, 5});
+  const Rgba rg23 = __builtin_shuffle(four[2], four[3], Mask{0, 4, 1, 5});
+  const Rgba ba01 = __builtin_shuffle(four[0], four[1], Mask{2, 6, 3, 7});
+  const Rgba ba23 = __builtin_shuffle(four[2], four[3], Mask{2, 6, 3, 7});
+  const Rgba planes[4] = {__builtin_shuffle(rg01, rg23, Mask{0, 1, 4, 5}),
+                          __builtin_shuffle(rg01, rg23, Mask{2, 3, 6, 7}),
+                          __builtin_shuffle(ba01, ba23, Mask{0, 1, 4, 5}),
+                          __builtin_shuffle(ba01, ba23, Mask{2, 3, 6, 7})};
+  std::memcpy(out.r + x, &planes[0], sizeof(Rgba));
+  std::memcpy(out.g + x, &planes[1], sizeof(Rgba));
+  std::memcpy(out.b + x, &planes[2], sizeof(Rgba));
+  std::memcpy(out.a + x, &planes[3], sizeof(Rgba));
+}
+
+// The common case: opaque strips at their own contrast, every pixel there.
+void storePlainly(const Strip& strip, const ColourPlaces& places, int first, int count,
+                  ColourRows& out) {
+  const Rgba* const colours = strip.grain.colours.row(0);
+  int i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const Rgba four[4] = {colourAt(colours, places, i), colourAt(colours, places, i + 1),
+                          colourAt(colours, places, i + 2), colourAt(colours, places, i + 3)};
+    storeFour(four, first + i, out);
+  }
+  for (; i < count; ++i) out.store(first + i, colourAt(colours, places, i));
+  std::fill_n(out.a + first, count, 1.0f);
+}
+
+void storeColours(const BrushInput& in, const Strip& strip, const BrushBlock& block,
+                  const ColourPlaces& places, int first, int count, ColourRows& out) {
+  const Rgba* const colours = strip.grain.colours.row(0);
+  const float contrast = in.params.contrast;
+  const bool opaque = strip.opaque;
+  for (int i = 0; i < count; ++i) {
+    Rgba colour = colourAt(colours, places, i);
+    if (contrast != 1.0f) {
+      const Rgba mean = stripRowMean(strip, block.here.tone[i + 1]);
+      colour = mean + (colour - mean) * contrast;
+      colour = colour > 0.0f ? colour : Rgba{};
+    }
+    if (opaque) colour[3] = 1.0f;
+    out.store(first + i, block.here.absent[i + 1] == 0.0f ? colour : Rgba{});
+  }
+}
+
+bool allPresent(const BrushBlock& block, int count) {
+  return std::all_of(block.here.absent + 1, block.here.absent + 1 + count,
+                     [](float absent) { return absent == 0.0f; });
+}
+
+}  // namespace
+
+bool canPaintObjectRow(const BrushInput& in) {
+  return in.params.mapping == BrushParams::Mapping::held &&
+         in.params.grain == BrushParams::Grain::object &&
+         in.params.filter == BrushParams::Filter::anisotropic;
+}
+
+void paintObjectRow(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,
+                    ColourRows& out) {
+  const Strip& strip = in.strips[static_cast<size_t>(anchor.strip)];
+  const StripGrain::Level& full = strip.grain.levels.front();
+  const float aspect = static_cast<float>(full.width) / static_cast<float>(full.height);
+  BrushBlock block;
+  GrainTaps taps;
+  ColourPlaces places;
+  alignas(64) float grain[brushBlock];
+  for (int x = first; x < end; x += brushBlock) {
+    const int count = std::min(end - x, brushBlock);
+    loadBlock(in, anchor, x, x + count, y, block);
+    listGrainTaps(in, anchor, aspect, count, block, taps);
+    readGrain(strip.grain, in.params.maxProbes, taps, grain);
+    placeColours(strip.grain.toneRows, strip.grain.lastToneLevel, block, grain, count, places);
+    if (in.params.contrast == 1.0f && strip.opaque && allPresent(block, count))
+      storePlainly(strip, places, x, count, out);
+    else
+      storeColours(in, strip, block, places, x, count, out);
+  }
+}
+
+}  // namespace kagefude
