@@ -42,7 +42,8 @@ KAGEFUDE_CLONES bool searchBlock(const uint16_t* squares, uint16_t* best) {
       std::memcpy(&left, squares - o, sizeof left);
       std::memcpy(&right, squares + o, sizeof right);
       const auto square = static_cast<uint16_t>(o * o);
-      const Lanes least = left < right ? left : right, most = Lanes{} + (farAway - square);
+      const Lanes least = left < right ? left : right,
+                  most = Lanes{} + static_cast<uint16_t>(farAway - square);
       const Lanes near = (least < most ? least : most) + square;
       lowest = near < lowest ? near : lowest;
     }
