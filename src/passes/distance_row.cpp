@@ -9,7 +9,10 @@
 namespace kagefude::detail {
 namespace {
 
+// Comparisons are written as selects: a bare one of 64 bytes is taken apart lane by lane.
 using Lanes = uint16_t __attribute__((vector_size(2 * rowBlock)));
+
+constexpr Lanes everyBit = ~Lanes{};
 
 /// The first column at which v's site is to be had instead of u's (u < v): it is nearer, or as near
 /// and in an upper row.
@@ -48,7 +51,7 @@ KAGEFUDE_CLONES bool searchBlock(const uint16_t* squares, uint16_t* best) {
       lowest = near < lowest ? near : lowest;
     }
     // The next offset is o: nothing nearer than o² is left to find.
-    const Lanes above = (Lanes)(lowest > static_cast<uint16_t>(o * o));
+    const Lanes above = lowest > static_cast<uint16_t>(o * o) ? everyBit : Lanes{};
     uint64_t words[sizeof above / 8];
     std::memcpy(words, &above, sizeof above);
     uint64_t any = 0;
@@ -61,28 +64,26 @@ KAGEFUDE_CLONES bool searchBlock(const uint16_t* squares, uint16_t* best) {
 
 KAGEFUDE_CLONES void findBlockSites(const uint16_t* squares, const int16_t* offsets,
                                     const uint16_t* squared, int16_t* across, int16_t* down) {
-  using Signed = int16_t __attribute__((vector_size(2 * rowBlock)));
-  Lanes lowest;
-  std::memcpy(&lowest, squared, sizeof lowest);
+  int16_t bestDown[rowBlock], bestAcross[rowBlock] = {};
   uint16_t farthest = 0;
-  for (int i = 0; i < rowBlock; ++i) farthest = std::max(farthest, squared[i]);
-  Signed bestDown = Signed{} + noRow, bestAcross{};
-  const auto consider = [&](int o, uint16_t square) {
-    Lanes there;
-    Signed rows;
-    std::memcpy(&there, squares + o, sizeof there);
-    std::memcpy(&rows, offsets + o, sizeof rows);
-    const Signed better =
-        (Signed)(there == lowest - square) & (Signed)(lowest >= square) & (rows < bestDown);
-    bestDown = better ? rows : bestDown;
-    bestAcross = better ? Signed{} + static_cast<int16_t>(o) : bestAcross;
-  };
-  for (int o = 0; o * o <= farthest; ++o) {
-    consider(-o, static_cast<uint16_t>(o * o));
-    consider(o, static_cast<uint16_t>(o * o));
+  for (int i = 0; i < rowBlock; ++i) {
+    bestDown[i] = noRow;
+    farthest = std::max(farthest, squared[i]);
   }
-  std::memcpy(across, &bestAcross, sizeof bestAcross);
-  std::memcpy(down, &bestDown, sizeof bestDown);
+  for (int o = 0; o * o <= farthest; ++o)
+    for (const int at : {-o, o}) {
+      const auto square = static_cast<uint16_t>(o * o);
+      const auto aside = static_cast<int16_t>(at);
+      for (int i = 0; i < rowBlock; ++i) {
+        const auto left = static_cast<uint16_t>(squared[i] - square);
+        const bool better =
+            (squares[at + i] == left) & (squared[i] >= square) & (offsets[at + i] < bestDown[i]);
+        bestDown[i] = better ? offsets[at + i] : bestDown[i];
+        bestAcross[i] = better ? aside : bestAcross[i];
+      }
+    }
+  std::copy_n(bestAcross, rowBlock, across);
+  std::copy_n(bestDown, rowBlock, down);
 }
 
 void Envelope::build(const int16_t* offsets, int count) {
