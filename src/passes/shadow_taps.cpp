@@ -40,11 +40,14 @@ struct Sums {
 
 constexpr int inLower = 16;  ///< masks whose bits lie beside the normal
 
-/// Whether mask k sees the light, by a pixel's lower and upper bits.
+/// 1 when mask k sees the light, by a pixel's lower and upper bits.
 template <bool wide>
-inline __attribute__((always_inline)) bool bitOf(uint32_t lower, uint64_t upper, int32_t k) {
-  if constexpr (wide) return (k < inLower ? lower >> k : upper >> (k - inLower)) & 1;
-  return lower >> k & 1;
+inline __attribute__((always_inline)) uint32_t bitOf(uint32_t lower, uint64_t upper, int32_t k) {
+  if constexpr (wide) {
+    return static_cast<uint32_t>((k < inLower ? lower >> k : upper >> (k - inLower)) & 1);
+  } else {
+    return lower >> k & 1;
+  }
 }
 
 /// Weight that counts, and lit weight, of every place. `uniform`: every tap is in the frame and on
@@ -132,8 +135,8 @@ inline __attribute__((always_inline)) void compare(const Source& from, const Sha
     const int at = cy * width + cx;
     const int counts = (qx == cx) & (qy == cy) & (labels[at] == label);
     counted += counts;
-    const bool there = bitOf<wide>(pixels[at], wide ? from.upperPixels[at] : 0, ring.from[i]);
-    differ += counts & static_cast<int>(there != bitOf<wide>(here, from.upper, ring.to[i]));
+    const uint32_t there = bitOf<wide>(pixels[at], wide ? from.upperPixels[at] : 0, ring.from[i]);
+    differ += counts & static_cast<int>(there ^ bitOf<wide>(here, from.upper, ring.to[i]));
   }
   count = counted;
   wrong = differ;
