@@ -140,13 +140,13 @@ void resolvePixel(const Inputs& in, const ShadowFollow::Band* follow, int x, int
     visibility = in.horizonShare.of(height);
     return;
   }
+  const ShadowFollow::Answer answer =
+      follow && follow->mayAnswer(x, y) ? follow->at(x, y) : ShadowFollow::Answer{};
   if (in.wanted.contains(x, y)) {
     const PixelDistances s(in.distances, in.wanted.indexOf(x, y), in.grow);
-    visibility = in.share.of(s.values());
+    if (answer.trust < 1) visibility = in.share.of(s.values());
     confidence = s.confidence(toFrameEdge(x, y, in.labels.width, in.labels.height));
   }
-  if (!follow || !follow->mayAnswer(x, y)) return;
-  const ShadowFollow::Answer answer = follow->at(x, y);
   visibility += answer.trust * (answer.visibility - visibility);
 }
 

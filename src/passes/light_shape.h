@@ -88,7 +88,9 @@ struct LightShapeResult {
 /// of its masks. confidence: the share of masks with a site, less where the frame's edge is nearer
 /// than the site. With style knobs (grow, soften, abstract) nothing is followed.
 /// Throws InputError when planes differ in size or masks are fewer than 2 (line) or 5 (disc).
-/// Cost: two nearest-site searches a mask; 2 bytes a pixel and mask of scratch.
+/// Cost: a search of both kinds of sites a mask; scratch of 2 bytes a mask for every pixel where
+/// masks disagree (with a style: every pixel), and with `follow` 4 bytes a pixel, or 12 with more
+/// than 16 masks.
 LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks,
                                       std::span<const V2f> places, View<const uint32_t> labels,
                                       Vec3View position, Vec3View normal,

@@ -9,12 +9,9 @@
 namespace kagefude {
 namespace {
 
-constexpr int alike = 6;       ///< steps of 1/127 that packed normals may differ by
-constexpr int block = 8;       ///< pixels a side that are known to be of one label, or not
-constexpr int farthest = 255;  ///< blocks
-constexpr int lanes = 8;       ///< sums that run side by side, on any machine
+constexpr int alike = 6;  ///< steps of 1/127 that packed normals may differ by
+constexpr int lanes = 8;  ///< sums that run side by side, on any machine
 using Lanes = float __attribute__((vector_size(4 * lanes)));
-constexpr uint32_t mixed = 0xffffffffu;
 
 /// Floor of a pixel coordinate not far outside the frame; std::floor is a call on plain x86-64.
 inline int floorOf(float v) { return static_cast<int>(v + 4096.0f) - 4096; }
@@ -40,11 +37,14 @@ struct Sums {
 
 constexpr int inLower = 16;  ///< masks whose bits lie beside the normal
 
-/// Whether mask k sees the light, by a pixel's lower and upper bits.
+/// 1 when mask k sees the light, by a pixel's lower and upper bits.
 template <bool wide>
-inline __attribute__((always_inline)) bool bitOf(uint32_t lower, uint64_t upper, int32_t k) {
-  if constexpr (wide) return (k < inLower ? lower >> k : upper >> (k - inLower)) & 1;
-  return lower >> k & 1;
+inline __attribute__((always_inline)) uint32_t bitOf(uint32_t lower, uint64_t upper, int32_t k) {
+  if constexpr (wide) {
+    return static_cast<uint32_t>((k < inLower ? lower >> k : upper >> (k - inLower)) & 1);
+  } else {
+    return lower >> k & 1;
+  }
 }
 
 /// Weight that counts, and lit weight, of every place. `uniform`: every tap is in the frame and on
@@ -132,8 +132,8 @@ inline __attribute__((always_inline)) void compare(const Source& from, const Sha
     const int at = cy * width + cx;
     const int counts = (qx == cx) & (qy == cy) & (labels[at] == label);
     counted += counts;
-    const bool there = bitOf<wide>(pixels[at], wide ? from.upperPixels[at] : 0, ring.from[i]);
-    differ += counts & static_cast<int>(there != bitOf<wide>(here, from.upper, ring.to[i]));
+    const uint32_t there = bitOf<wide>(pixels[at], wide ? from.upperPixels[at] : 0, ring.from[i]);
+    differ += counts & static_cast<int>(there ^ bitOf<wide>(here, from.upper, ring.to[i]));
   }
   count = counted;
   wrong = differ;
@@ -181,16 +181,6 @@ KAGEFUDE_CLONES void addBit(const uint8_t* mask, int count, uint32_t bit, uint32
   for (int i = 0; i < count; ++i) out[i] |= mask[i] ? bit : 0;
 }
 
-/// The one label of a block, or `mixed`; mixed, too, where the frame's edge cuts it.
-uint32_t labelOf(View<const uint32_t> labels, int x0, int y0) {
-  if (x0 + block > labels.width || y0 + block > labels.height) return mixed;
-  const uint32_t first = labels(x0, y0);
-  uint32_t differs = 0;
-  for (int y = y0; y < y0 + block; ++y)
-    for (int x = x0; x < x0 + block; ++x) differs |= labels(x, y) ^ first;
-  return differs ? mixed : first;
-}
-
 }  // namespace
 
 ShadowTaps::ShadowTaps(std::span<const View<const uint8_t>> masks, std::span<const V2f> places,
@@ -201,10 +191,8 @@ ShadowTaps::ShadowTaps(std::span<const View<const uint8_t>> masks, std::span<con
       upper_(masks.size() > inLower ? (uint64_t{1} << (masks.size() - inLower)) - 1 : 0),
       pixels_(labels.width, labels.height),
       upperPixels_(upper_ ? Plane<uint64_t>(labels.width, labels.height, 0) : Plane<uint64_t>()),
-      blocksX_((labels.width + block - 1) / block),
-      blocksY_((labels.height + block - 1) / block) {
+      uniform_(labels) {
   parallelRows(labels.height, [&](int y0, int y1) { pack(masks, normal, y0, y1); });
-  findUniform();
 }
 
 void ShadowTaps::pack(std::span<const View<const uint8_t>> masks, Vec3View normal, int y0, int y1) {
@@ -217,36 +205,6 @@ void ShadowTaps::pack(std::span<const View<const uint8_t>> masks, Vec3View norma
       else
         addUpperBit(masks[k].row(y), width, uint64_t{1} << (k - inLower), upperPixels_.row(y));
   }
-}
-
-void ShadowTaps::findUniform() {
-  const auto at = [this](int x, int y) {
-    return static_cast<size_t>(y) * static_cast<size_t>(blocksX_) + static_cast<size_t>(x);
-  };
-  std::vector<uint32_t> label(at(0, blocksY_));
-  uniform_.resize(label.size());
-  parallelRows(blocksY_, [&](int y0, int y1) {
-    for (int y = y0; y < y1; ++y)
-      for (int x = 0; x < blocksX_; ++x) label[at(x, y)] = labelOf(labels_, x * block, y * block);
-  });
-  // The greatest square of blocks of one label round each: chessboard distance in two sweeps.
-  constexpr int ahead[4][2] = {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
-  const auto lower = [&](int x, int y, int sign) {
-    const size_t here = at(x, y);
-    if (label[here] == mixed) return;
-    int least = sign > 0 ? farthest : uniform_[here];
-    for (const auto& step : ahead) {
-      const int nx = x + sign * step[0], ny = y + sign * step[1];
-      const bool inside = nx >= 0 && ny >= 0 && nx < blocksX_ && ny < blocksY_;
-      const bool same = inside && label[at(nx, ny)] == label[here];
-      least = std::min(least, same ? uniform_[at(nx, ny)] + 1 : 1);
-    }
-    uniform_[here] = static_cast<uint8_t>(least);
-  };
-  for (int y = 0; y < blocksY_; ++y)
-    for (int x = 0; x < blocksX_; ++x) lower(x, y, 1);
-  for (int y = blocksY_ - 1; y >= 0; --y)
-    for (int x = blocksX_ - 1; x >= 0; --x) lower(x, y, -1);
 }
 
 ShadowTaps::Source ShadowTaps::sourceAt(int x, int y, const ShadowShift& along, float shift) const {
@@ -267,12 +225,10 @@ ShadowTaps::Source ShadowTaps::sourceAt(int x, int y, const ShadowShift& along, 
 ShadowTaps::Mean ShadowTaps::mean(const ShadowPlaces& places, int x, int y,
                                   const ShadowShift& along, float shift) const {
   const Source from = sourceAt(x, y, along, shift);
-  const int around = uniform_[static_cast<size_t>(y / block) * static_cast<size_t>(blocksX_) +
-                              static_cast<size_t>(x / block)];
   Sums sums;
   if (upper_) {
     sumWide(from, places, sums);
-  } else if (shift * places.reach + 1.0f < static_cast<float>((around - 1) * block)) {
+  } else if (shift * places.reach + 1.0f < static_cast<float>(uniform_.margin(x, y))) {
     sumOnOneLabel(from, places, sums);
   } else {
     sumAnywhere(from, places, sums);

@@ -8,6 +8,7 @@
 #include "passes/light_share.h"
 #include "passes/shadow_places.h"
 #include "passes/shadow_shift.h"
+#include "passes/uniform_blocks.h"
 
 namespace kagefude {
 
@@ -64,7 +65,6 @@ class ShadowTaps {
  private:
   Source sourceAt(int x, int y, const ShadowShift& along, float shift) const;
   void pack(std::span<const View<const uint8_t>> masks, Vec3View normal, int y0, int y1);
-  void findUniform();
 
   View<const uint32_t> labels_;
   Ring ring_;
@@ -72,10 +72,7 @@ class ShadowTaps {
   uint64_t upper_;               ///< and of the rest
   Plane<uint32_t> pixels_;       ///< normal in the upper half, bits of 16 masks in the lower
   Plane<uint64_t> upperPixels_;  ///< bits of the rest; empty when there is none
-  int blocksX_, blocksY_;
-  /// For blocks of 8x8 pixels: how many blocks to every side, less one, are of one label with it;
-  /// 0: not even its own pixels are.
-  std::vector<uint8_t> uniform_;
+  UniformBlocks uniform_;
 };
 
 }  // namespace kagefude

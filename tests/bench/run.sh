@@ -9,6 +9,7 @@ filter=.
 .ci/ensure_packages build test bench
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
 cmake --build --preset release --target kagefude_bench
-build/release/kagefude_bench --benchmark_filter="$filter" --benchmark_out=build/release/bench.json \
+build/release/kagefude_bench --benchmark_filter="$filter" \
+  --benchmark_enable_random_interleaving=true --benchmark_out=build/release/bench.json \
   --benchmark_out_format=json >/dev/null
 python3 tests/bench/gates.py build/release/bench.json

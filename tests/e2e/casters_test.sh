@@ -65,6 +65,11 @@ expect "there are pixels off the edges" "$(statistic Avg "$work/even.exr") > 0.9
 expect "places are the traced masks' soft shadow" "$(
   comp plain masks
   difference Avg places masks) < 0.02"
+# Any number of places: the same shadow, sampled more densely.
+for places in 12 33; do
+  comp plain places$places --set shadow.method=places --set shadow.places=$places
+  expect "$places places are the shadow of nine" "$(difference Avg places places$places) < 0.01"
+done
 comp plain soft --set shadow.method=blob --set shadow.receiver=Floor --set blob.blend=multiply
 expect "multiplied blobs are lighter" "$(mean soft) > $(mean blob)"
 comp plain faint --set shadow.method=planar --set shadow.receiver=Floor --set planar.alpha=0.2
