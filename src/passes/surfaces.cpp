@@ -3,71 +3,13 @@
 #include <vector>
 
 #include "image/parallel.h"
-#include "image/real_math.h"
 #include "passes/require_size.h"
+#include "passes/surface_joins.h"
 
 namespace kagefude {
 namespace {
 
-struct Step {
-  int dx, dy;
-};
-// Each pair of neighbours is looked at once, from the pixel that comes first in raster order.
-constexpr Step steps[] = {{1, 0}, {-1, 1}, {0, 1}, {1, 1}};
 constexpr int bandRows = 64;
-
-/// Decides whether two neighbours belong to one surface.
-class Joins {
- public:
-  Joins(View<const uint32_t> ids, Vec3View normal, Vec3View position, const SurfacesParams& params)
-      : ids_(ids), normal_(normal), position_(position), gap2_(params.gap * params.gap) {
-    const float cosine = sinCosTurns(params.angle / 360.0f).cos;
-    cosine2_ = cosine * cosine;
-  }
-
-  bool operator()(int x, int y, Step s) const {
-    const int qx = x + s.dx, qy = y + s.dy;
-    if (!ids_.contains(qx, qy) || ids_(x, y) == 0 || ids_(x, y) != ids_(qx, qy)) return false;
-    return (normal_.empty() || normalsAgree(x, y, qx, qy)) &&
-           (position_.empty() || positionsAgree(x, y, s));
-  }
-
- private:
-  bool normalsAgree(int x, int y, int qx, int qy) const {
-    const V3f a = normal_(x, y), b = normal_(qx, qy);
-    const float dot = a.dot(b), lengths = a.dot(a) * b.dot(b);
-    return dot > 0 && lengths < 1e30f && dot * dot >= cosine2_ * lengths;
-  }
-
-  bool positionsAgree(int x, int y, Step s) const {
-    const V3f p = position_(x, y), q = position_(x + s.dx, y + s.dy), d = q - p;
-    float spacing2 = d.dot(d);
-    if (!(spacing2 < 1e30f)) return false;
-    lowerByStep(x, y, {-s.dx, -s.dy}, spacing2);
-    lowerByStep(x + s.dx, y + s.dy, s, spacing2);
-    if (normal_.empty()) return true;
-    return nearPlane(d, normal_(x, y), spacing2) &&
-           nearPlane(d, normal_(x + s.dx, y + s.dy), spacing2);
-  }
-
-  /// Lowers the squared spacing to four times that of the step s from (x, y), if that is smaller.
-  void lowerByStep(int x, int y, Step s, float& spacing2) const {
-    const int bx = x + s.dx, by = y + s.dy;
-    if (!ids_.contains(bx, by) || ids_(bx, by) != ids_(x, y)) return;
-    const V3f d = position_(bx, by) - position_(x, y);
-    const float step2 = 4.0f * d.dot(d);
-    if (step2 < spacing2) spacing2 = step2;
-  }
-
-  bool nearPlane(const V3f& d, const V3f& n, float spacing2) const {
-    const float off = d.dot(n);
-    return off * off <= gap2_ * spacing2 * n.dot(n);
-  }
-
-  View<const uint32_t> ids_;
-  Vec3View normal_, position_;
-  float gap2_, cosine2_;
-};
 
 /// Union-find over pixel indices in which the root is always the smallest index of its set, that
 /// is the first pixel in raster order; so the outcome does not depend on the order of unions.
@@ -96,16 +38,64 @@ struct Forest {
   }
 };
 
-void joinRow(const Joins& joins, const Forest& forest, int y, int width, bool sameRow,
-             bool nextRow) {
-  const uint32_t start = static_cast<uint32_t>(y) * static_cast<uint32_t>(width);
-  for (int x = 0; x < width; ++x)
-    for (const Step s : steps) {
-      if (s.dy == 0 ? !sameRow : !nextRow) continue;
-      const uint32_t i = start + static_cast<uint32_t>(x);
-      if (joins(x, y, s)) forest.unite(i, i + static_cast<uint32_t>(s.dy * width + s.dx));
+/// Joins of two neighbouring rows, and what has to be united for them: where a loop of other joins
+/// connects two pixels anyway, nothing is.
+class RowPair {
+ public:
+  RowPair(const SurfaceJoins& joins, const Forest& forest, int width)
+      : joins_(joins), forest_(forest), width_(width) {
+    for (std::vector<uint8_t>* row : {&upper_, &lower_, &down_, &left_, &right_})
+      row->resize(static_cast<size_t>(width) + 1, 0);
+  }
+
+  /// Sets the parents of a row's pixels to the first of their run, and keeps its joins as the lower
+  /// row's.
+  void startRow(int y) {
+    std::swap(upper_, lower_);
+    joins_.row(y, {1, 0}, lower_.data() + 1);
+    uint32_t* const parent = forest_.parent + static_cast<size_t>(y) * static_cast<size_t>(width_);
+    uint32_t first = 0;
+    for (int x = 0; x < width_; ++x) {
+      const uint32_t i =
+          static_cast<uint32_t>(y) * static_cast<uint32_t>(width_) + static_cast<uint32_t>(x);
+      first = x > 0 && lower_[static_cast<size_t>(x)] ? first : i;
+      parent[x] = first;
     }
-}
+  }
+
+  /// Keeps the joins within a row as the lower row's, without touching parents.
+  void readRow(int y) {
+    std::swap(upper_, lower_);
+    joins_.row(y, {1, 0}, lower_.data() + 1);
+  }
+
+  /// Unites row y, the upper one, with the row below it.
+  void uniteDown(int y) {
+    joins_.row(y, {0, 1}, down_.data() + 1);
+    joins_.row(y, {-1, 1}, left_.data() + 1);
+    joins_.row(y, {1, 1}, right_.data() + 1);
+    const uint32_t start = static_cast<uint32_t>(y) * static_cast<uint32_t>(width_);
+    const uint32_t below = static_cast<uint32_t>(width_);
+    // Index k is pixel k - 1: lower_[k], upper_[k] join it to the pixel after it.
+    for (int x = 0; x < width_; ++x) {
+      const auto k = static_cast<size_t>(x) + 1;
+      const uint32_t i = start + static_cast<uint32_t>(x);
+      const bool square = (upper_[k - 1] & lower_[k - 1]) != 0;
+      if (down_[k] && !(square && down_[k - 1])) forest_.unite(i, i + below);
+      if (left_[k] && !(down_[k] && lower_[k - 1]) && !(upper_[k - 1] && down_[k - 1]))
+        forest_.unite(i, i + below - 1);
+      if (right_[k] && !(down_[k] && lower_[k]) && !(upper_[k] && down_[k + 1]))
+        forest_.unite(i, i + below + 1);
+    }
+  }
+
+ private:
+  const SurfaceJoins& joins_;
+  const Forest& forest_;
+  int width_;
+  std::vector<uint8_t> upper_, lower_;        ///< to the next pixel of the row
+  std::vector<uint8_t> down_, left_, right_;  ///< from the upper row to the lower
+};
 
 /// Numbers the roots from 1 in raster order; number[i] is set at roots only.
 void numberRoots(const Forest& forest, View<const uint32_t> ids, uint32_t* number) {
@@ -135,14 +125,20 @@ Labels labelSurfaces(View<const uint32_t> ids, Vec3View normal, Vec3View positio
   if (!position.empty()) requireSize("the position pass", position, width, height);
   Labels parents(width, height), labels(width, height);
   const Forest forest{parents.view().data};
-  const Joins joins(ids, normal, position, params);
+  const SurfaceJoins joins(ids, normal, position, params);
   parallelRows(height, bandRows, [&](int y0, int y1) {
-    for (size_t i = static_cast<size_t>(y0) * width; i < static_cast<size_t>(y1) * width; ++i)
-      forest.parent[i] = static_cast<uint32_t>(i);
-    for (int y = y0; y < y1; ++y) joinRow(joins, forest, y, width, true, y + 1 < y1);
+    RowPair rows(joins, forest, width);
+    for (int y = y0; y < y1; ++y) {
+      rows.startRow(y);
+      if (y > y0) rows.uniteDown(y - 1);
+    }
   });
-  for (int y = bandRows - 1; y + 1 < height; y += bandRows)
-    joinRow(joins, forest, y, width, false, true);
+  RowPair seam(joins, forest, width);
+  for (int y = bandRows; y < height; y += bandRows) {
+    seam.readRow(y - 1);
+    seam.readRow(y);
+    seam.uniteDown(y - 1);
+  }
   uint32_t* const number = labels.view().data;
   numberRoots(forest, ids, number);
   // Roots keep their number, so writing the others in any order reads only finished values.
