@@ -8,9 +8,9 @@ namespace {
 
 // A value that is not known becomes null.
 nlohmann::ordered_json frameJson(const CheckedFrame& f) {
-  return {{"frame", f.frame},       {"compared", f.compared}, {"picture", f.picture},
-          {"unstyled", f.plain},    {"tone", f.tone},         {"excess", f.excess()},
-          {"contrast", f.contrast}, {"grain", f.grain}};
+  return {{"frame", f.frame},     {"compared", f.compared}, {"picture", f.picture},
+          {"unstyled", f.plain},  {"tone", f.tone},         {"strokes", f.strokes},
+          {"excess", f.excess()}, {"contrast", f.contrast}, {"grain", f.grain}};
 }
 
 }  // namespace
@@ -20,7 +20,11 @@ std::string checkJson(const CheckResult& r) {
   for (const CheckedFrame& frame : r.frames) frames.push_back(frameJson(frame));
   const nlohmann::ordered_json json = {
       {"warp_error",
-       {{"picture", r.picture}, {"unstyled", r.plain}, {"tone", r.tone}, {"excess", r.excess}}},
+       {{"picture", r.picture},
+        {"unstyled", r.plain},
+        {"tone", r.tone},
+        {"strokes", r.strokes},
+        {"excess", r.excess}}},
       {"jump", {{"largest_to_median", r.jump}, {"frame", r.jumpFrame}, {"median", r.median}}},
       {"strokes",
        {{"contrast", {{"median", r.contrast}, {"low", r.contrastLow}, {"high", r.contrastHigh}}},
