@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures how still strokes hold in three shots (the light moves; an object turns and moves; the
-# camera zooms), for the seed's mapping, polar and held, with two strips: exports the shots with
+# camera zooms), for the seed's mapping, polar and held, with two
+# strips: exports the shots with
 # Blender (kept in build/quality/brush, made again when brush_scenes.py changes), comps and checks
 # them, and prints the table. Exit 1 when a demand is missed.
 #   tests/quality/brush.sh [SCENE ...]     plots and contact sheets: build/quality/brush/SCENE
@@ -50,7 +51,9 @@ for scene in "${scenes[@]}"; do
     measure "$scene" $strip unstyled brush.contrast=0
     measure "$scene" $strip seed brush.mapping=seed
     measure "$scene" $strip polar brush.mapping=polar
+    measure "$scene" $strip tone brush.grain=tone
     measure "$scene" $strip held
+    if [ "$scene" = zoom ]; then measure "$scene" $strip screen brush.size=screen; fi
   done
 done
 python3 tests/quality/brush_table.py "$out" "${scenes[@]}"
