@@ -38,6 +38,7 @@ void plotCheck(const CheckResult& result, const std::filesystem::path& path) {
   PlotCurve picture{"finished picture", {0.95f, 0.62f, 0.25f}, {}},
       plain{"unstyled tone", {0.45f, 0.70f, 0.90f}, {}},
       excess{"excess", {0.60f, 0.85f, 0.45f}, {}};
+  PlotCurve strokes{"strokes alone", {0.60f, 0.60f, 0.60f}, {}};
   PlotCurve contrast{"contrast of the strokes", {0.90f, 0.50f, 0.60f}, {}};
   PlotCurve grain{"grain in pixels", {0.75f, 0.65f, 0.95f}, {}};
   for (const CheckedFrame& frame : result.frames) {
@@ -45,11 +46,13 @@ void plotCheck(const CheckResult& result, const std::filesystem::path& path) {
     picture.values.push_back(frame.picture);
     plain.values.push_back(frame.plain);
     excess.values.push_back(frame.excess());
+    strokes.values.push_back(frame.strokes);
     contrast.values.push_back(frame.contrast);
     grain.values.push_back(frame.grain);
   }
   writePlot(path, places,
-            {{"Warp error against the frame before (scene-linear, RMS)", {picture, plain, excess}},
+            {{"Warp error against the frame before (scene-linear, RMS)",
+              {picture, plain, excess, strokes}},
              {"Strokes: RMS luminance, of the picture's", {contrast}},
              {"Strokes: mean wavelength", {grain}}});
 }

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Measures how still strokes hold in three shots (the light moves; an object turns and moves; the
-# camera zooms), for the seed's mapping, polar and held, with two
-# strips: exports the shots with
+# camera zooms), for the seed's mapping, polar and held, with two strips: exports the shots with
 # Blender (kept in build/quality/brush, made again when brush_scenes.py changes), comps and checks
 # them, and prints the table. Exit 1 when a demand is missed.
 #   tests/quality/brush.sh [SCENE ...]     plots and contact sheets: build/quality/brush/SCENE
