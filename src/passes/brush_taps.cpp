@@ -46,7 +46,7 @@ void strokeParts(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
                  float nearAxis, float* parts) {
   const BrushPlace place = brushPlace(anchor, pixel.position, params.pointBlend);
   const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
-  const float near = nearAxis * anchor.mappingDistance;
+  const float near = nearAxis * anchor.mappingDistance * (1.0f + anchor.coarser);
   for (int k = 0; k < 3; ++k) parts[k] = near * near;
   for (int i = 0; i < 2; ++i) {
     const float share = i == 0 ? 1.0f - place.next : place.next;
