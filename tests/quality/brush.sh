@@ -33,7 +33,7 @@ measure() {
   shift 3
   for setting in "$@"; do set+=(--set "$setting"); done
   "$kagefude" comp tests/quality/brush.toml "$out/$scene/aovs/$scene.####.exr" \
-    -o "$folder/$scene.####.exr" --frames $frames --preview "$folder" --existing update \
+    -o "$folder/$scene.####.exr" --frames $frames --preview "$folder" \
     --progress none "${set[@]}"
   [ "$name" = "${name%_unstyled}" ] || return 0
   "$kagefude" check "$folder/$scene.####.exr" --unstyled "${folder%_*}_unstyled/$scene.####.exr" --aovs "$out/$scene/aovs/$scene.####.exr" \
