@@ -93,8 +93,8 @@ inline void grainEllipse(float ux, float vx, float uy, float vy, float width, fl
   const float du = a >= c ? 0.5f * (a - c + spread) : b;
   const float dv = a >= c ? b : 0.5f * (c - a + spread);
   const float step = std::sqrt(share / (du * du + dv * dv));
-  stepU = probes > 1.0f ? du * step / width : 0.0f;
-  stepV = probes > 1.0f ? dv * step / height : 0.0f;
+  stepU = probes > 1.0f ? du * step * (1.0f / width) : 0.0f;
+  stepV = probes > 1.0f ? dv * step * (1.0f / height) : 0.0f;
 }
 
 inline StripProbe grainProbe(const StripGrain& grain, const Footprint& f, int maxProbes) {
