@@ -21,9 +21,9 @@ struct CheckOptions {
 
 void print(std::ostream& out, const CheckResult& r) {
   out << fmt::format(
-      "warp error, mean of {} frames: picture {:.5f}, unstyled tone {:.5f}, excess {:.5f}; of the "
-      "tone itself {:.5f}\n",
-      r.frames.size() - 1, r.picture, r.plain, r.excess, r.tone);
+      "warp error, mean of {} frames: picture {:.5f}, unstyled tone {:.5f}, excess {:.5f}; "
+      "strokes alone {:.5f}, tone itself {:.5f}\n",
+      r.frames.size() - 1, r.picture, r.plain, r.excess, r.strokes, r.tone);
   out << fmt::format("largest jump: {:.2f} times the median, at frame {}\n", r.jump, r.jumpFrame);
   out << fmt::format(
       "strokes: contrast {:.4f} ({:+.0f} % to {:+.0f} % over the sequence), grain {:.1f} pixels "

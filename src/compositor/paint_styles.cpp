@@ -37,43 +37,23 @@ Plane<uint16_t> onlyGroup(View<const uint16_t> index, const std::vector<size_t>&
   return own;
 }
 
-/// Pixels of other groups are all zero in both results, so the sum is the union.
-void addInto(Floats& sum, const Floats& part) {
-  if (part.empty()) return;
-  parallelRows(sum.height(), [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < sum.width(); ++x) sum(x, y) += part(x, y);
-  });
-}
-
 }  // namespace
 
 BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<const float> tone,
                         const StyledSurfaces& styled, bool diagnostics) {
-  const auto paint = [&](View<const uint16_t> index, BrushParams params) {
+  BrushResult result;
+  const auto paint = [&](View<const uint16_t> index, BrushParams params, bool keepOthers) {
     params.diagnostics = diagnostics;
-    return applyBrush(planes.position, planes.normal, tone, index, styled.anchors, strips.strips(),
-                      params);
+    applyBrush(planes.position, planes.normal, tone, index, styled.anchors, strips.strips(), params,
+               result, keepOthers);
   };
   const std::vector<size_t> groups = groupsOf(styled.brushes);
   const bool oneGroup = std::all_of(groups.begin(), groups.end(), [](size_t g) { return g == 0; });
   if (oneGroup)
-    return paint(styled.anchorIndex, styled.brushes.empty() ? BrushParams{} : styled.brushes[0]);
-  BrushResult result;
-  for (size_t i = 0; i < groups.size(); ++i) {
-    if (groups[i] != i) continue;
-    BrushResult part = paint(onlyGroup(styled.anchorIndex, groups, i), styled.brushes[i]);
-    if (result.r.empty()) {
-      result = std::move(part);
-      continue;
-    }
-    addInto(result.r, part.r);
-    addInto(result.g, part.g);
-    addInto(result.b, part.b);
-    addInto(result.a, part.a);
-    addInto(result.angle, part.angle);
-    addInto(result.repeat, part.repeat);
-  }
+    paint(styled.anchorIndex, styled.brushes.empty() ? BrushParams{} : styled.brushes[0], false);
+  else
+    for (size_t i = 0; i < groups.size(); ++i)
+      if (groups[i] == i) paint(onlyGroup(styled.anchorIndex, groups, i), styled.brushes[i], i > 0);
   return result;
 }
 

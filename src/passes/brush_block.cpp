@@ -191,7 +191,7 @@ void prepareBlock(const BrushInput& in, const BrushAnchor& anchor, int first, in
   const int count = end - first;
   const float finer = 1.0f - anchor.coarser;
   weighAxes(anchor.points[0].frame.axis, anchor.points[0].position, anchor.object,
-            heldNearAxis * anchor.mappingDistance, count, block);
+            heldNearAxis * anchor.mappingDistance * (1.0f + anchor.coarser), count, block);
   gainContrast(in.params.contrast, finer * finer + anchor.coarser * anchor.coarser,
                in.params.crossFade == BrushParams::CrossFade::variance ? 1.0f : 0.0f, count, block);
 }

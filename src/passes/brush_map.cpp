@@ -8,14 +8,16 @@
 #include "passes/brush_rows.h"
 #include "passes/brush_taps.h"
 #include "passes/grain_rows.h"
+#include "passes/seed_rows.h"
 
 namespace kagefude {
 namespace {
 
 // Angle and repeats of the weightiest reference point.
-void writeDiagnostics(const BrushInput& in, int y, BrushResult& result) {
+void writeDiagnostics(const BrushInput& in, int y, bool keepOthers, BrushResult& result) {
   for (int x = 0; x < in.index.width; ++x) {
     const size_t index = in.index(x, y);
+    if (index == 0 && keepOthers) continue;
     const V3f p = in.position(x, y);
     result.angle(x, y) = result.repeat(x, y) = 0.0f;
     if (index == 0 || index > in.anchors.size() || !isFinite(p)) continue;
@@ -50,17 +52,19 @@ void paintPlainly(const BrushInput& in, int first, int end, int y, ColourRows& o
 }
 
 // Pixels of one anchor at a time.
-void paintRow(const BrushInput& in, int y, ColourRows& out) {
+void paintRow(const BrushInput& in, int y, bool keepOthers, ColourRows& out) {
   const uint16_t* index = in.index.row(y);
   for (int x = 0; x < in.index.width;) {
     int end = x + 1;
     while (end < in.index.width && index[end] == index[x]) ++end;
     const bool known = index[x] > 0 && index[x] <= in.anchors.size();
-    if (known && canPaintObjectRow(in))
+    if (known && canPaintSeedRow(in, in.anchors[index[x] - 1]))
+      paintSeedRow(in, in.anchors[index[x] - 1], x, end, y, out);
+    else if (known && canPaintObjectRow(in))
       paintObjectRow(in, in.anchors[index[x] - 1], x, end, y, out);
     else if (known && canPaintHeldRow(in, in.anchors[index[x] - 1]))
       paintHeldRow(in, in.anchors[index[x] - 1], x, end, y, out);
-    else
+    else if (known || !keepOthers)
       paintPlainly(in, x, end, y, out);
     x = end;
   }
@@ -75,7 +79,8 @@ void fit(Floats& plane, View<const float> like) {
 
 void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
                 View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
-                std::span<const Strip> strips, const BrushParams& params, BrushResult& result) {
+                std::span<const Strip> strips, const BrushParams& params, BrushResult& result,
+                bool keepOthers) {
   const BrushInput in{position, normal, tone, anchorIndex, anchors, strips, params};
   checkAnchors(in);
   for (Floats* plane : {&result.r, &result.g, &result.b, &result.a}) fit(*plane, tone);
@@ -84,8 +89,8 @@ void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
   parallelRows(tone.height, [&](int first, int end) {
     for (int y = first; y < end; ++y) {
       ColourRows out{result.r.row(y), result.g.row(y), result.b.row(y), result.a.row(y)};
-      paintRow(in, y, out);
-      if (params.diagnostics) writeDiagnostics(in, y, result);
+      paintRow(in, y, keepOthers, out);
+      if (params.diagnostics) writeDiagnostics(in, y, keepOthers, result);
     }
   });
 }

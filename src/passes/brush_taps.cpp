@@ -43,10 +43,10 @@ V3f strokeDirection(const BrushAnchor::Point& point, const BrushPixel& pixel) {
 
 // Squared parts of the strokes' direction along the object's axes.
 void strokeParts(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
-                 float* parts) {
+                 float nearAxis, float* parts) {
   const BrushPlace place = brushPlace(anchor, pixel.position, params.pointBlend);
   const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
-  const float near = heldNearAxis * anchor.mappingDistance;
+  const float near = nearAxis * anchor.mappingDistance * (1.0f + anchor.coarser);
   for (int k = 0; k < 3; ++k) parts[k] = near * near;
   for (int i = 0; i < 2; ++i) {
     const float share = i == 0 ? 1.0f - place.next : place.next;
@@ -106,7 +106,7 @@ void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Bru
                    float aspect, BrushTaps& taps) {
   const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
   float parts[3];
-  strokeParts(anchor, pixel, params, parts);
+  strokeParts(anchor, pixel, params, objectNearAxis, parts);
   const bool known = pixel.normal.dot(pixel.normal) > 0.0f;
   const V3f normal = known ? pixel.normal : pixel.dx.cross(pixel.dy);
   float facing[3];
@@ -148,7 +148,7 @@ void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
                  BrushTaps& taps) {
   const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
   float parts[3];
-  strokeParts(anchor, pixel, params, parts);
+  strokeParts(anchor, pixel, params, heldNearAxis, parts);
   const float largest = std::max(std::max(parts[0], parts[1]), parts[2]);
   const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
   const V3f q = pixel.position - anchor.object.origin;

@@ -25,6 +25,9 @@ inline float excessShare(float part, float largest) {
   return positive * positive;
 }
 
+/// The same for object grain: wide, or strokes would lie in squares round the axis.
+inline constexpr float objectNearAxis = 1.0f;
+
 /// One pixel of the brush pass: place, normal (zero: unknown), tone, and their change to the next
 /// pixel in x and y.
 struct BrushPixel {

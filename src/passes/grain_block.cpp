@@ -59,7 +59,7 @@ void shareBeyond(const BrushAnchor& anchor, float from, float to, float blend, i
 
 void findParts(const BrushInput& in, const BrushAnchor& anchor, int count, const BrushBlock& block,
                Parts& parts) {
-  const float near = heldNearAxis * anchor.mappingDistance;
+  const float near = objectNearAxis * anchor.mappingDistance * (1.0f + anchor.coarser);
   for (auto& along : parts.along) std::fill_n(along, count, near * near);
   alignas(64) float before[brushBlock], beyond[brushBlock], share[brushBlock];
   std::fill_n(before, count, 1.0f);

@@ -59,9 +59,53 @@ inline float grainAt(const StripGrain& grain, size_t level, float u, float w) {
   return grainBetween(fourTexels(grain.pool.row(0), place.texel, l.stride()), place.fx, place.fy);
 }
 
+/// As log2Of within 2e-4, without a division.
+inline float roughLog2(float value) {
+  const uint32_t bits = std::bit_cast<uint32_t>(value);
+  const float exponent = static_cast<float>(static_cast<int>(bits >> 23) - 127);
+  const float m = std::bit_cast<float>((bits & 0x007fffffu) | 0x3f800000u) - 1.0f;
+  // Minimax over [0, 1], exact at both ends so that it is continuous.
+  return exponent + m * (1.4384552f + m * (-0.6778900f + m * (0.3230900f + m * -0.0836552f)));
+}
+
+/// As probeEllipse with grainTolerance, but for roughLog2; all but the probes' step is found from
+/// squares.
+inline void grainEllipse(float ux, float vx, float uy, float vy, float width, float height,
+                         float maxProbes, float& probes, float& lod, float& stepU, float& stepV) {
+  constexpr float least = bilinearWidth * bilinearWidth;
+  constexpr float reach = 1.0f / ((1.0f + grainTolerance) * (1.0f + grainTolerance));
+  const float a = ux * ux + uy * uy, b = ux * vx + uy * vy, c = vx * vx + vy * vy;
+  const float spread = std::sqrt((a - c) * (a - c) + 4.0f * b * b);
+  const float longest = 0.5f * (a + c + spread);  // squared, as all lengths here
+  // A small ellipse, and NaN, counts as the least circle, which is one probe of level 0. (A guard
+  // against each constant would be threaded into branches, and the loop would not vectorise.)
+  const bool large = longest > least;
+  const float length = large ? longest : least;
+  const float area = ux * vy - uy * vx;
+  const float narrow = area * area / length;
+  const float shortest = narrow > least ? narrow : least;
+  const float wanted = std::ceil(std::sqrt(length / shortest) - grainTolerance);
+  probes = wanted < maxProbes ? wanted : maxProbes;
+  const float inverse = 1.0f / probes;
+  const float share = length * inverse * inverse;
+  const float covered = share * reach > shortest ? share * reach : shortest;
+  lod = 0.5f * roughLog2(covered) - 0.5f;
+  const float du = a >= c ? 0.5f * (a - c + spread) : b;
+  const float dv = a >= c ? b : 0.5f * (c - a + spread);
+  const float step = std::sqrt(share / (du * du + dv * dv));
+  stepU = probes > 1.0f ? du * step * (1.0f / width) : 0.0f;
+  stepV = probes > 1.0f ? dv * step * (1.0f / height) : 0.0f;
+}
+
 inline StripProbe grainProbe(const StripGrain& grain, const Footprint& f, int maxProbes) {
-  return probeTexels(grain.levels.front().width, grain.levels.front().height, f, maxProbes,
-                     grainTolerance);
+  const float w = static_cast<float>(grain.levels.front().width),
+              h = static_cast<float>(grain.levels.front().height);
+  StripProbe probe;
+  float probes;
+  grainEllipse(f.ux * w, f.vx * h, f.uy * w, f.vy * h, w, h, static_cast<float>(maxProbes), probes,
+               probe.lod, probe.stepU, probe.stepV);
+  probe.count = static_cast<int>(probes);
+  return probe;
 }
 
 /// Mean of the probes round (u, w), each between two levels.

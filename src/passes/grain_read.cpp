@@ -35,8 +35,8 @@ void splitTaps(float w, float h, float maxProbes, int lastLevel, GrainTaps& taps
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     float n, lod, du, dv;
-    probeEllipse(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h, w, h, maxProbes, n,
-                 lod, du, dv, grainTolerance);
+    grainEllipse(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h, w, h, maxProbes, n,
+                 lod, du, dv);
     const float between = lod < most ? lod : most;
     const int fine = static_cast<int>(between);
     const float share = levelShare(between - static_cast<float>(fine));

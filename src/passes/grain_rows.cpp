@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "image/clones.h"
 #include "passes/grain_block.h"
@@ -43,23 +42,6 @@ Rgba colourAt(const Rgba* colours, const ColourPlaces& places, int i) {
   return mixFour(upper[0], upper[1], lower[0], lower[1], places.fx[i], places.fy[i]);
 }
 
-// Four colours to four pixels of each plane.
-void storeFour(const Rgba* four, int x, ColourRows& out) {
-  using Mask = int __attribute__((vector_size(16)));
-  const Rgba rg01 = __builtin_shuffle(four[0], four[1], Mask{0, 4, 1, 5});
-  const Rgba rg23 = __builtin_shuffle(four[2], four[3], Mask{0, 4, 1, 5});
-  const Rgba ba01 = __builtin_shuffle(four[0], four[1], Mask{2, 6, 3, 7});
-  const Rgba ba23 = __builtin_shuffle(four[2], four[3], Mask{2, 6, 3, 7});
-  const Rgba planes[4] = {__builtin_shuffle(rg01, rg23, Mask{0, 1, 4, 5}),
-                          __builtin_shuffle(rg01, rg23, Mask{2, 3, 6, 7}),
-                          __builtin_shuffle(ba01, ba23, Mask{0, 1, 4, 5}),
-                          __builtin_shuffle(ba01, ba23, Mask{2, 3, 6, 7})};
-  std::memcpy(out.r + x, &planes[0], sizeof(Rgba));
-  std::memcpy(out.g + x, &planes[1], sizeof(Rgba));
-  std::memcpy(out.b + x, &planes[2], sizeof(Rgba));
-  std::memcpy(out.a + x, &planes[3], sizeof(Rgba));
-}
-
 // The common case: opaque strips at their own contrast, every pixel there.
 void storePlainly(const Strip& strip, const ColourPlaces& places, int first, int count,
                   ColourRows& out) {
@@ -68,7 +50,7 @@ void storePlainly(const Strip& strip, const ColourPlaces& places, int first, int
   for (; i + 4 <= count; i += 4) {
     const Rgba four[4] = {colourAt(colours, places, i), colourAt(colours, places, i + 1),
                           colourAt(colours, places, i + 2), colourAt(colours, places, i + 3)};
-    storeFour(four, first + i, out);
+    out.storeFour(first + i, four);
   }
   for (; i < count; ++i) out.store(first + i, colourAt(colours, places, i));
   std::fill_n(out.a + first, count, 1.0f);

@@ -36,7 +36,8 @@ struct Strip {
 
 /// Builds a strip from planes of equal size, alpha optional (empty: opaque) and already associated.
 /// Throws InputError on an empty picture and on one beyond 16384 pixels a side. Non-finite texels
-/// become 0. Cost: one pass over the picture, and a third of that again for the chain.
+/// become 0. Cost: two passes over the picture for the chain, and a sort of
+/// every row for the grain.
 Strip makeStrip(View<const float> r, View<const float> g, View<const float> b,
                 View<const float> a = {});
 

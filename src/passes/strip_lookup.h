@@ -94,8 +94,7 @@ inline constexpr float probeTolerance = 0.25f;
 /// axis picks the level. `width`, `height`: of the full-size strip. Without branches, so that loops
 /// over pixels vectorise; `probes` is a whole number.
 inline void probeEllipse(float ux, float vx, float uy, float vy, float width, float height,
-                         float maxProbes, float& probes, float& lod, float& stepU, float& stepV,
-                         float tolerance = probeTolerance) {
+                         float maxProbes, float& probes, float& lod, float& stepU, float& stepV) {
   const float a = ux * ux + uy * uy, b = ux * vx + uy * vy, c = vx * vx + vy * vy;
   const float spread = std::sqrt((a - c) * (a - c) + 4.0f * b * b);
   const float longest = std::sqrt(0.5f * (a + c + spread));
@@ -104,10 +103,10 @@ inline void probeEllipse(float ux, float vx, float uy, float vy, float width, fl
   const float area = std::fabs(ux * vy - uy * vx);
   const float narrow = large ? area / longest : 0.0f;
   const float shortest = narrow > bilinearWidth ? narrow : bilinearWidth;
-  const float wanted = large ? std::ceil(longest / shortest - tolerance) : 1.0f;
+  const float wanted = large ? std::ceil(longest / shortest - probeTolerance) : 1.0f;
   probes = wanted < maxProbes ? wanted : maxProbes;
   const float share = longest / probes;
-  const float reach = share * (1.0f / (1.0f + tolerance));
+  const float reach = share * (1.0f / (1.0f + probeTolerance));
   const float level = log2Of(large ? (shortest > reach ? shortest : reach) : 1.0f) - 0.5f;
   lod = level > 1e-6f ? level : 0.0f;
   // Of the two expressions for the long axis's direction, the one without cancellation.
@@ -119,19 +118,14 @@ inline void probeEllipse(float ux, float vx, float uy, float vy, float width, fl
   stepV = step > 0.0f ? dv * step / height : 0.0f;
 }
 
-inline StripProbe probeTexels(int width, int height, const Footprint& f, int maxProbes,
-                              float tolerance = probeTolerance) {
-  const float w = static_cast<float>(width), h = static_cast<float>(height);
+inline StripProbe stripProbe(const Strip& strip, const Footprint& f, int maxProbes) {
+  const float w = static_cast<float>(strip.width()), h = static_cast<float>(strip.height());
   StripProbe probe;
   float probes;
   probeEllipse(f.ux * w, f.vx * h, f.uy * w, f.vy * h, w, h, static_cast<float>(maxProbes), probes,
-               probe.lod, probe.stepU, probe.stepV, tolerance);
+               probe.lod, probe.stepU, probe.stepV);
   probe.count = static_cast<int>(probes);
   return probe;
-}
-
-inline StripProbe stripProbe(const Strip& strip, const Footprint& f, int maxProbes) {
-  return probeTexels(strip.width(), strip.height(), f, maxProbes);
 }
 
 /// Mean of the probes round (u, v).

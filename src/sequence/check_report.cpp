@@ -8,9 +8,9 @@ namespace {
 
 // A value that is not known becomes null.
 nlohmann::ordered_json frameJson(const CheckedFrame& f) {
-  return {{"frame", f.frame},       {"compared", f.compared}, {"picture", f.picture},
-          {"unstyled", f.plain},    {"tone", f.tone},         {"excess", f.excess()},
-          {"contrast", f.contrast}, {"grain", f.grain}};
+  return {{"frame", f.frame},     {"compared", f.compared}, {"picture", f.picture},
+          {"unstyled", f.plain},  {"tone", f.tone},         {"strokes", f.strokes},
+          {"excess", f.excess()}, {"contrast", f.contrast}, {"grain", f.grain}};
 }
 
 }  // namespace
@@ -20,7 +20,11 @@ std::string checkJson(const CheckResult& r) {
   for (const CheckedFrame& frame : r.frames) frames.push_back(frameJson(frame));
   const nlohmann::ordered_json json = {
       {"warp_error",
-       {{"picture", r.picture}, {"unstyled", r.plain}, {"tone", r.tone}, {"excess", r.excess}}},
+       {{"picture", r.picture},
+        {"unstyled", r.plain},
+        {"tone", r.tone},
+        {"strokes", r.strokes},
+        {"excess", r.excess}}},
       {"jump", {{"largest_to_median", r.jump}, {"frame", r.jumpFrame}, {"median", r.median}}},
       {"strokes",
        {{"contrast", {{"median", r.contrast}, {"low", r.contrastLow}, {"high", r.contrastHigh}}},
@@ -34,6 +38,7 @@ void plotCheck(const CheckResult& result, const std::filesystem::path& path) {
   PlotCurve picture{"finished picture", {0.95f, 0.62f, 0.25f}, {}},
       plain{"unstyled tone", {0.45f, 0.70f, 0.90f}, {}},
       excess{"excess", {0.60f, 0.85f, 0.45f}, {}};
+  PlotCurve strokes{"strokes alone", {0.60f, 0.60f, 0.60f}, {}};
   PlotCurve contrast{"contrast of the strokes", {0.90f, 0.50f, 0.60f}, {}};
   PlotCurve grain{"grain in pixels", {0.75f, 0.65f, 0.95f}, {}};
   for (const CheckedFrame& frame : result.frames) {
@@ -41,11 +46,13 @@ void plotCheck(const CheckResult& result, const std::filesystem::path& path) {
     picture.values.push_back(frame.picture);
     plain.values.push_back(frame.plain);
     excess.values.push_back(frame.excess());
+    strokes.values.push_back(frame.strokes);
     contrast.values.push_back(frame.contrast);
     grain.values.push_back(frame.grain);
   }
   writePlot(path, places,
-            {{"Warp error against the frame before (scene-linear, RMS)", {picture, plain, excess}},
+            {{"Warp error against the frame before (scene-linear, RMS)",
+              {picture, plain, excess, strokes}},
              {"Strokes: RMS luminance, of the picture's", {contrast}},
              {"Strokes: mean wavelength", {grain}}});
 }

@@ -99,10 +99,25 @@ double errorOf(const Vec3Plane& now, const Vec3Plane& before, const PreviousPlac
   return error.pixels > 0 ? error.rmse : unknown;
 }
 
+Floats difference(View<const float> a, View<const float> b) {
+  Floats result(a.width, a.height);
+  for (size_t i = 0; i < a.pixels(); ++i) result.row(0)[i] = a.data[i] - b.data[i];
+  return result;
+}
+
+/// The picture less what it would be without strokes.
+Vec3Plane strokesOf(const Finished& frame) {
+  Vec3Plane strokes;
+  strokes.x = difference(frame.picture.x, frame.plain.x);
+  strokes.y = difference(frame.picture.y, frame.plain.y);
+  strokes.z = difference(frame.picture.z, frame.plain.z);
+  return strokes;
+}
+
 CheckedFrame compareFrames(int frame, const Finished& now, const Finished* before) {
   CheckedFrame checked;
   checked.frame = frame;
-  checked.picture = checked.plain = checked.tone = unknown;
+  checked.picture = checked.plain = checked.tone = checked.strokes = unknown;
   const StrokeMeasure strokes = measureStrokes(now.motion.ids, now.picture, now.plain);
   checked.contrast = strokes.contrast;
   checked.grain = strokes.grain;
@@ -110,6 +125,7 @@ CheckedFrame compareFrames(int frame, const Finished& now, const Finished* befor
   const PreviousPlaces places = previousPlaces(now.motion, before->motion);
   checked.picture = errorOf(now.picture, before->picture, places);
   checked.plain = errorOf(now.plain, before->plain, places);
+  checked.strokes = errorOf(strokesOf(now), strokesOf(*before), places);
   const View<const float> tone[] = {now.tone}, toneBefore[] = {before->tone};
   const WarpError error = warpError(tone, toneBefore, places);
   if (error.pixels > 0) checked.tone = error.rmse;
@@ -152,6 +168,7 @@ void summarise(CheckResult& result) {
   result.picture = meanOf(pictures);
   result.plain = meanOf(known(result.frames, &CheckedFrame::plain));
   result.tone = meanOf(known(result.frames, &CheckedFrame::tone));
+  result.strokes = meanOf(known(result.frames, &CheckedFrame::strokes));
   result.excess = result.picture - result.plain;
   result.median = medianOf(pictures);
   for (const CheckedFrame& frame : result.frames)

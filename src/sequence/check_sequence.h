@@ -28,6 +28,7 @@ struct CheckedFrame {
   double plain = 0;     ///< of the unstyled tone: the unstyled sequence, or without one each
                         ///< object's mean colour over the sequence at each pixel's tone
   double tone = 0;      ///< of the tone itself, 0..1
+  double strokes = 0;   ///< of the strokes alone: the picture less the unstyled tone
   double contrast = 0;  ///< of the strokes, see StrokeMeasure
   double grain = 0;     ///< of the strokes, pixels
 
@@ -36,12 +37,12 @@ struct CheckedFrame {
 
 struct CheckResult {
   std::vector<CheckedFrame> frames;
-  double picture = 0, plain = 0, tone = 0, excess = 0;  ///< means over the sequence
-  double median = 0;                                    ///< of the picture's warp errors
-  double jump = 0;                                      ///< the largest of them over the median
-  int jumpFrame = 0;                                    ///< where it is
-  double contrast = 0;                                  ///< median over the frames
-  double contrastLow = 0, contrastHigh = 0;             ///< least and most, against the median
+  double picture = 0, plain = 0, tone = 0, strokes = 0, excess = 0;  ///< means over the sequence
+  double median = 0;                         ///< of the picture's warp errors
+  double jump = 0;                           ///< the largest of them over the median
+  int jumpFrame = 0;                         ///< where it is
+  double contrast = 0;                       ///< median over the frames
+  double contrastLow = 0, contrastHigh = 0;  ///< least and most, against the median
   double grain = 0, grainLow = 0, grainHigh = 0;
 };
 

@@ -252,6 +252,29 @@ TEST(BrushMap, RowsEqualThePlainPass) {
   rowsEqualThePlainPass(BrushParams::Grain::object, 5e-5f);
 }
 
+TEST(BrushMap, SeedRowsAreThePlainPassToTheBit) {
+  const auto strips = oneStrip(test::noiseStrip(96, 80));
+  BrushScene scene = test::randomScene(301, 45, 7);
+  scene.position.set(100, 3, {std::numeric_limits<float>::quiet_NaN(), 0, 0});
+  scene.tone(90, 3) = std::numeric_limits<float>::quiet_NaN();
+  const BrushAnchor anchors[] = {test::straightAnchor(0.2f), test::straightAnchor(0.02f)};
+  for (const float blendWidth : {0.0f, 0.3f, 1.0f}) {
+    BrushParams params = mappingOf(BrushParams::Mapping::seed);
+    params.blendWidth = blendWidth;
+    const BrushResult fast = scene.paint(anchors, strips, params);
+    const BrushInput in{scene.position, scene.normal, scene.tone, scene.index,
+                        anchors,        strips,       params};
+    for (int y = 0; y < 45; ++y)
+      for (int x = 0; x < 301; ++x) {
+        const V3f p = in.position(x, y);
+        if (scene.index(x, y) == 0 || !isFinite(p)) continue;
+        const Rgba plain = brushColourAt(in, anchors[scene.index(x, y) - 1], x, y, p);
+        ASSERT_EQ(fast.r(x, y), plain[0]) << x << "," << y;
+        ASSERT_EQ(fast.a(x, y), plain[3]);
+      }
+  }
+}
+
 TEST(BrushMap, ThreadsDoNotMatter) {
   const BrushScene scene = test::randomScene(83, 71, 3);
   const auto strips = oneStrip(test::noiseStrip(96, 80));
@@ -329,6 +352,23 @@ TEST(BrushMap, DiagnosticsAreAngleAndRepeats) {
   // Pixel (3, 0) lies at (1.5, 1.5): from -Y towards +X, 135 degrees.
   EXPECT_NEAR(result.angle(3, 0), 0.375f, 1e-6f);
   EXPECT_NEAR(result.repeat(3, 0), std::sqrt(4.5f) / 0.5f, 1e-5f);
+}
+
+TEST(BrushMap, SeveralCallsFillOnePicture) {
+  BrushScene scene = test::ground(8, 1.0f);
+  const auto strips = oneStrip(test::noiseStrip(16, 16));
+  const BrushAnchor anchor = test::straightAnchor(0.2f);
+  const BrushResult whole = scene.paint(std::span(&anchor, 1), strips, {});
+  BrushResult result;
+  for (int half = 0; half < 2; ++half) {
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) scene.index(x, y) = (y < 4) == (half == 0) ? 1 : 0;
+    applyBrush(scene.position, scene.normal, scene.tone, scene.index, std::span(&anchor, 1), strips,
+               {}, result, half > 0);
+  }
+  // Footprints end at the border between the halves, where rows may differ a little.
+  for (const int y : {0, 1, 2, 5, 6, 7})
+    for (int x = 0; x < 8; ++x) ASSERT_EQ(result.r(x, y), whole.r(x, y)) << x << "," << y;
 }
 
 TEST(BrushMap, RefusesAnchorsThatCannotBeDrawn) {

@@ -33,7 +33,7 @@ measure() {
   shift 3
   for setting in "$@"; do set+=(--set "$setting"); done
   "$kagefude" comp tests/quality/brush.toml "$out/$scene/aovs/$scene.####.exr" \
-    -o "$folder/$scene.####.exr" --frames $frames --preview "$folder" --existing update \
+    -o "$folder/$scene.####.exr" --frames $frames --preview "$folder" \
     --progress none "${set[@]}"
   [ "$name" = "${name%_unstyled}" ] || return 0
   "$kagefude" check "$folder/$scene.####.exr" --unstyled "${folder%_*}_unstyled/$scene.####.exr" --aovs "$out/$scene/aovs/$scene.####.exr" \
@@ -50,7 +50,9 @@ for scene in "${scenes[@]}"; do
     measure "$scene" $strip unstyled brush.contrast=0
     measure "$scene" $strip seed brush.mapping=seed
     measure "$scene" $strip polar brush.mapping=polar
+    measure "$scene" $strip tone brush.grain=tone
     measure "$scene" $strip held
+    if [ "$scene" = zoom ]; then measure "$scene" $strip screen brush.size=screen; fi
   done
 done
 python3 tests/quality/brush_table.py "$out" "${scenes[@]}"

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# kagefude check on sequences whose error is known: a picture that stands still, one that brightens,
+# and one that moves with its vectors; clear errors for what is missing.
+set -euo pipefail
+source "$(dirname "$0")/frames.sh"
+
+# The still life three times: its motion vectors say that it stood still.
+mkdir -p "$work/in" "$work/out" "$work/bright"
+for frame in 1 2 3; do
+  cp "$data/shot.0001.exr" "$work/in/shot.000$frame.exr"
+  sed "s/shot.0001.exr/shot.000$frame.exr/; s/\"frame\": 1,/\"frame\": $frame,/" "$data/shot.0001.json" \
+    >"$work/in/shot.000$frame.json"
+done
+cp "$data/shot.Key.depth.0001.exr" "$work/in/"
+printf '[output]\nlayers = ["brush.tone"]\ncolour = "float"\nbackground = "transparent"\n' >"$work/look.toml"
+"$kagefude" comp "$work/look.toml" "$work/in/shot.####.exr" -o "$work/out/shot.####.exr" --frames 1-3 --progress none
+check_json() { "$kagefude" check "$@" --aovs "$work/in/shot.####.exr" --json; }
+value() { python3 -c 'import json, sys
+place = json.load(sys.stdin)
+for key in sys.argv[1].split("."): place = place[key]
+print(place)' "$1"; }
+within() { python3 -c "import sys; sys.exit(not abs($1 - $2) <= $3)"; }
+
+still=$(check_json "$work/out/shot.####.exr" | value warp_error.picture)
+check "a picture that stands still has a warp error of $still" within "$still" 0 1e-6
+
+# Frame 2 and 3 are brighter by 0.1 and 0.2 all over: every step is 0.1.
+for frame in 1 2 3; do
+  oiiotool "$work/out/shot.000$frame.exr" --addc "0.$((frame - 1)),0.$((frame - 1)),0.$((frame - 1)),0,0" \
+    -o "$work/bright/shot.000$frame.exr"
+done
+bright=$(check_json "$work/bright/shot.####.exr" --plot "$work/plot.png" --write-json "$work/check.json")
+check "brightening by 0.1 is not measured as such" within "$(value warp_error.picture <<<"$bright")" 0.1 1e-5
+check "even steps are no jump" within "$(value jump.largest_to_median <<<"$bright")" 1 1e-4
+check "the written JSON is not the printed one" diff -q <(echo "$bright") "$work/check.json"
+check "the plot is no picture" grep -qE '960 +x +780' <(iinfo "$work/plot.png")
+same=$(check_json "$work/bright/shot.####.exr" --unstyled "$work/bright/shot.####.exr")
+check "against itself there is excess" within "$(value warp_error.excess <<<"$same")" 0 1e-9
+
+# Errors are one line that names what is missing.
+complain() { # complain WORDS CODE ARGUMENT...
+  local words=$1 code=$2
+  shift 2
+  [ "$(exit_code "$kagefude" check "$@")" = "$code" ] && grep -qF -- "$words" "$work/log" && pass ||
+    fail "expected '$words', got: $(cat "$work/log")"
+}
+rm "$work/bright/shot.0002.exr"
+complain 'frame 2: ' 1 "$work/bright/shot.####.exr" --aovs "$work/in/shot.####.exr" --frames 1-3
+complain 'frame 3 does not follow frame 1' 2 "$work/bright/shot.####.exr" --aovs "$work/in/shot.####.exr"
+complain 'has no layer brush.tine' 1 "$work/out/shot.####.exr" --aovs "$work/in/shot.####.exr" --tone brush.tine
+complain 'at least two are compared' 2 "$work/out/shot.####.exr" --aovs "$work/in/shot.####.exr" --frames 2
+complain 'a sequence is wanted' 2 "$work/out/shot.0001.exr"
+complain 'data.Motion' 1 "$work/out/shot.####.exr" --aovs "$work/in/shot.####.exr" --set frame.vector=data.Motion
+summary
