@@ -67,7 +67,8 @@ KAGEFUDE_CLONES bool wantedLanes(const uint8_t* kinds, uint8_t wantedKind, const
   return any != 0;
 }
 
-KAGEFUDE_CLONES void storeWanted(const uint16_t* wanted, const uint16_t* squared, int count,
+/// Writes unwanted pixels back as they are, so only where no other thread has any in the block.
+KAGEFUDE_CLONES void blendWanted(const uint16_t* wanted, const uint16_t* squared, int count,
                                  uint32_t* out) {
   for (int i = 0; i < count; ++i) out[i] = wanted[i] ? squared[i] : out[i];
 }
@@ -114,7 +115,7 @@ class RowPhase {
     std::copy_n(wanted, rowBlock, best);
     const int column = x - box_.x0;
     if (!envelopeReady_ && searchBlock(squares_.data() + rowPad + column, best)) {
-      storeWanted(wanted, best, count, squared_.row(y) + x);
+      storeSquared(x, y, count, wanted, best);
       if (!index_.empty()) storeBlockSites(x, y, count, wanted, best);
       return;
     }
@@ -126,6 +127,16 @@ class RowPhase {
       if (!index_.empty() && squared_(x + i, y) != noSite)
         index_(x + i, y) = indexOf(box_.x0 + envelope_.column(), y + row_[envelope_.column()]);
     }
+  }
+
+  void storeSquared(int x, int y, int count, const uint16_t* wanted, const uint16_t* squared) {
+    uint32_t* const out = squared_.row(y) + x;
+    if (search_.labels.empty()) {
+      blendWanted(wanted, squared, count, out);
+      return;
+    }
+    for (int i = 0; i < count; ++i)
+      if (wanted[i]) out[i] = squared[i];
   }
 
   void storeBlockSites(int x, int y, int count, const uint16_t* wanted, const uint16_t* squared) {
