@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "image/clones.h"
 #include "passes/grain_block.h"
@@ -222,25 +223,25 @@ class GrainReader {
   }
 
   void add(int tap, float u, float across, int level, float weight) {
-    if (list_.count == Lookups::most) flush();
-    const int n = list_.count++;
-    list_.u[n] = u;
-    list_.across[n] = across;
-    list_.level[n] = level;
-    list_.weight[n] = weight;
-    list_.tap[n] = tap;
+    if (list_->count == Lookups::most) flush();
+    const int n = list_->count++;
+    list_->u[n] = u;
+    list_->across[n] = across;
+    list_->level[n] = level;
+    list_->weight[n] = weight;
+    list_->tap[n] = tap;
   }
 
   void flush() {
-    readLevels(sizes_, list_.u, list_.across, list_.level, list_.count, list_.value);
-    for (int i = 0; i < list_.count; ++i)
-      taps_.value[list_.tap[i]] += list_.value[i] * list_.weight[i];
-    list_.count = 0;
+    readLevels(sizes_, list_->u, list_->across, list_->level, list_->count, list_->value);
+    for (int i = 0; i < list_->count; ++i)
+      taps_.value[list_->tap[i]] += list_->value[i] * list_->weight[i];
+    list_->count = 0;
   }
 
   LevelSizes sizes_;
   GrainTaps& taps_;
-  Lookups list_;
+  std::unique_ptr<Lookups> list_ = std::make_unique_for_overwrite<Lookups>();
 };
 
 KAGEFUDE_CLONES
