@@ -1,5 +1,6 @@
 #include "passes/smooth.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -44,13 +45,35 @@ KAGEFUDE_CLONES void maskRow(const float* value, const uint32_t* labels, uint32_
   }
 }
 
+KAGEFUDE_CLONES bool allAre(const uint32_t* labels, uint32_t label, int count) {
+  uint32_t other = 0;
+  for (int i = 0; i < count; ++i) other |= labels[i] ^ label;
+  return other == 0;
+}
+
+KAGEFUDE_CLONES void divideRow(const float* sums, const float* columns, float rows, int count,
+                               float* means) {
+  for (int i = 0; i < count; ++i) means[i] = sums[i] / (rows * columns[i]);
+}
+
+/// Sums of one label's values and pixels, kept from tile to tile: new ones would cost page faults.
+struct Scratch {
+  std::vector<float> values, ones, sum;
+};
+
 /// One tile: its own pixels, and the frame it reads around them.
 class Tile {
  public:
-  Tile(View<const float> value, View<const uint32_t> labels, int h, View<float> result, Window own)
-      : value_(value), labels_(labels), h_(h), result_(result), own_(own) {}
+  Tile(View<const float> value, View<const uint32_t> labels, int h, View<float> result, Window own,
+       Scratch& scratch)
+      : value_(value), labels_(labels), h_(h), result_(result), own_(own), scratch_(scratch) {}
 
   void run() {
+    const uint32_t first = labels_(own_.x, own_.y);
+    if (first != 0 && isUniform(own_, first)) {
+      sumLabel(first, own_);
+      return;
+    }
     findLabels();
     double cost = 0;
     for (const auto& [label, box] : boxes_)
@@ -85,32 +108,77 @@ class Tile {
     box.height = y + 1 - box.y;
   }
 
-  /// Masked sums over the label's box and its surroundings, outside the frame zeros.
+  /// Means over the label's box, from its surroundings too; outside the frame is nothing.
   void sumLabel(uint32_t label, const Window& box) {
-    const int width = box.width + 2 * h_, height = box.height + 2 * h_;
-    const size_t size = static_cast<size_t>(width) * static_cast<size_t>(height);
-    values_.assign(size, 0.0f);
-    ones_.assign(size, 0.0f);
-    scratch_.resize(size);
-    const int x0 = std::max(box.x - h_, 0), x1 = std::min(box.x + box.width + h_, labels_.width);
-    for (int row = 0; row < height; ++row) {
-      const int y = box.y - h_ + row;
-      if (y < 0 || y >= labels_.height) continue;
-      const size_t to = static_cast<size_t>(row) * width + static_cast<size_t>(x0 - box.x + h_);
-      maskRow(value_.row(y) + x0, labels_.row(y) + x0, label, x1 - x0, &values_[to], &ones_[to]);
+    const Window reach{box.x - h_, box.y - h_, box.width + 2 * h_, box.height + 2 * h_};
+    const Window seen = insideFrame(reach);
+    const auto size = static_cast<size_t>(reach.pixels());
+    scratch_.sum.resize(size);
+    scratch_.values.assign(size, 0.0f);
+    if (isUniform(seen, label)) {
+      for (int y = seen.y; y < seen.y + seen.height; ++y)
+        std::copy_n(value_.row(y) + seen.x, seen.width, &scratch_.values[at(reach, seen.x, y)]);
+      sumWindows(scratch_.values, reach, box);
+      storeUniform(reach, box);
+      return;
     }
+    scratch_.ones.assign(size, 0.0f);
+    for (int y = seen.y; y < seen.y + seen.height; ++y)
+      maskRow(value_.row(y) + seen.x, labels_.row(y) + seen.x, label, seen.width,
+              &scratch_.values[at(reach, seen.x, y)], &scratch_.ones[at(reach, seen.x, y)]);
+    sumWindows(scratch_.values, reach, box);
+    sumWindows(scratch_.ones, reach, box);
+    storeMasked(label, reach, box);
+  }
+
+  Window insideFrame(const Window& w) const {
+    const int x0 = std::max(w.x, 0), x1 = std::min(w.x + w.width, labels_.width);
+    const int y0 = std::max(w.y, 0), y1 = std::min(w.y + w.height, labels_.height);
+    return {x0, y0, x1 - x0, y1 - y0};
+  }
+
+  static size_t at(const Window& reach, int x, int y) {
+    return static_cast<size_t>(y - reach.y) * static_cast<size_t>(reach.width) +
+           static_cast<size_t>(x - reach.x);
+  }
+
+  bool isUniform(const Window& w, uint32_t label) const {
+    for (int y = w.y; y < w.y + w.height; ++y)
+      if (!allAre(labels_.row(y) + w.x, label, w.width)) return false;
+    return true;
+  }
+
+  /// The sum over the window that begins at each pixel of the box's rows and columns in `reach`.
+  void sumWindows(std::vector<float>& plane, const Window& reach, const Window& box) {
     const int n = 2 * h_ + 1;
-    for (std::vector<float>* plane : {&values_, &ones_}) {
-      windowSums(plane->data(), scratch_.data(), height, width, n);
-      for (int row = 0; row < box.height; ++row)
-        windowSums(plane->data() + static_cast<size_t>(row) * width, scratch_.data(), width, 1, n);
-    }
+    windowSums(plane.data(), scratch_.sum.data(), reach.height, reach.width, n);
+    for (int row = 0; row < box.height; ++row)
+      windowSums(plane.data() + static_cast<size_t>(row) * static_cast<size_t>(reach.width),
+                 scratch_.sum.data(), reach.width, 1, n);
+  }
+
+  void storeUniform(const Window& reach, const Window& box) const {
+    float columns[tileSide];
+    for (int i = 0; i < box.width; ++i)
+      columns[i] = static_cast<float>(windowIn(box.x + i, labels_.width));
+    for (int y = box.y; y < box.y + box.height; ++y)
+      divideRow(&scratch_.values[static_cast<size_t>(y - box.y) * static_cast<size_t>(reach.width)],
+                columns, static_cast<float>(windowIn(y, labels_.height)), box.width,
+                result_.row(y) + box.x);
+  }
+
+  /// Rows or columns of the window round a place that lie in the frame.
+  int windowIn(int place, int side) const {
+    return std::min(place + h_, side - 1) - std::max(place - h_, 0) + 1;
+  }
+
+  void storeMasked(uint32_t label, const Window& reach, const Window& box) const {
     for (int row = 0; row < box.height; ++row) {
       const uint32_t* const here = labels_.row(box.y + row) + box.x;
       float* const out = result_.row(box.y + row) + box.x;
-      const size_t from = static_cast<size_t>(row) * width;
+      const size_t from = static_cast<size_t>(row) * static_cast<size_t>(reach.width);
       for (int i = 0; i < box.width; ++i)
-        if (here[i] == label) out[i] = values_[from + i] / ones_[from + i];
+        if (here[i] == label) out[i] = scratch_.values[from + i] / scratch_.ones[from + i];
     }
   }
 
@@ -153,7 +221,7 @@ class Tile {
   Window own_;
   std::unordered_map<uint32_t, Window> boxes_;
   std::unordered_map<uint32_t, Running> running_;
-  std::vector<float> values_, ones_, scratch_;
+  Scratch& scratch_;
 };
 
 }  // namespace
@@ -164,10 +232,12 @@ Floats smoothWithinSurfaces(View<const float> value, View<const uint32_t> labels
   Floats result(labels.width, labels.height);
   const int across = (labels.width + tileSide - 1) / tileSide;
   const int down = (labels.height + tileSide - 1) / tileSide;
+  tbb::enumerable_thread_specific<Scratch> scratch;
   tbb::parallel_for(0, across * down, [&](int i) {
     const int x = i % across * tileSide, y = i / across * tileSide;
     Tile(value, labels, params.h, result,
-         {x, y, std::min(tileSide, labels.width - x), std::min(tileSide, labels.height - y)})
+         {x, y, std::min(tileSide, labels.width - x), std::min(tileSide, labels.height - y)},
+         scratch.local())
         .run();
   });
   return result;
