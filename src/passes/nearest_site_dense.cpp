@@ -10,7 +10,7 @@
 namespace kagefude::detail {
 namespace {
 
-constexpr int stripColumns = 64;
+constexpr int stripColumns = 128;
 
 /// A run of columns of the box, and where its signed row distances go.
 struct Strip {

@@ -7,6 +7,7 @@
 
 #include "bench_frame.h"
 #include "contest.h"
+#include "image/clones.h"
 #include "passes/nearest_site.h"
 #ifdef KAGEFUDE_HAVE_OPENCV
 #include <opencv2/imgproc.hpp>
@@ -25,13 +26,16 @@ const LabelledShadow& frame() {
   return made;
 }
 
+KAGEFUDE_CLONES void takeRoots(const uint32_t* squared, int count, float* distance) {
+  for (int i = 0; i < count; ++i)
+    distance[i] = squared[i] == noSite ? -1.0f : std::sqrt(static_cast<float>(squared[i]));
+}
+
 /// Distances of the wanted pixels as the peer gives them: the root is part of the work.
 void distances(const SiteSearch& search, View<uint32_t> squared, View<float> distance) {
   findNearestSites(search, findLabelBoxes(search), squared);
   parallelRows(height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < width; ++x)
-        if (squared(x, y) != noSite) distance(x, y) = std::sqrt(static_cast<float>(squared(x, y)));
+    takeRoots(squared.row(first), (end - first) * width, distance.row(first));
   });
 }
 
