@@ -240,9 +240,6 @@ void checkMethod(const FrameLight& light, bool hasCasters) {
         "light {} takes its shadow from the casters (shadow.method = \"{}\"), but the frame brings "
         "none; export it with --casters",
         light.name, methodName(light.method)));
-  if (light.method == ShadowMethod::places && light.castPlaces != 5 && light.castPlaces != 9)
-    throw LookError(
-        fmt::format("shadow.places wants 5 or 9 (a centre and a ring), not {}", light.castPlaces));
   const bool onReceiver =
       light.method == ShadowMethod::planar || light.method == ShadowMethod::blob;
   if (onReceiver && light.receiver.empty())

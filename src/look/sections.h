@@ -48,8 +48,8 @@ inline constexpr Parameter shadowParameters[] = {
     number<&ShadowParams::strength>("strength", 0, 1, "",
                                     "share of the light that a full shadow takes away"),
     number<&ShadowParams::places>(
-        "places", 5, 9, "",
-        "places on the light's disc that method places cuts masks from: 5 or 9"),
+        "places", 5, 65, "",
+        "places on the light's disc that method places cuts masks from"),
     plain<&ShadowParams::receiver>("receiver",
                                    "object that planar shadows and blobs fall on; flat"),
     plain<&ShadowParams::blob>(

@@ -137,8 +137,11 @@ expect_error 'did you mean Floor?' "$work/plain.toml" "$frame" --set shadow.meth
 expect_error 'wants shadow.receiver' "$work/plain.toml" "$frame" --set shadow.method=blob
 expect_error 'Ball is not flat' "$work/plain.toml" "$frame" --set shadow.method=planar \
   --set shadow.receiver=Ball
-expect_error 'shadow.places wants 5 or 9' "$work/plain.toml" "$frame" --set shadow.method=places \
-  --set shadow.places=7
+expect_error 'shadow.places is 4, outside its range 5 to 65' "$work/plain.toml" "$frame" \
+  --set shadow.method=places --set shadow.places=4
+comp plain seventeen --set shadow.method=places --set shadow.places=17
+expect "seventeen places are near the traced masks' soft shadow" \
+  "$(difference Avg seventeen places) > 0 && $(difference Avg seventeen masks) < 0.02"
 expect_error 'export it with --casters' "$work/plain.toml" "$PWD/tests/data/still/shot.0001.exr" \
   --set shadow.method=coverage
 cp -r "$data" "$work/broken"
