@@ -27,35 +27,68 @@ struct LevelSizes {
   }
 };
 
+/// Level below a lod, and the share of the one above it.
+struct LevelMix {
+  int level;
+  float coarser;
+};
+
+inline LevelMix mixAt(float lod, float most) {
+  const float between = lod < most ? lod : most;
+  const int fine = static_cast<int>(between);
+  const float share = levelShare(between - static_cast<float>(fine));
+  return {fine + (share >= 1.0f ? 1 : 0), share >= 1.0f ? 0.0f : share};
+}
+
+// One probe for every tap, and which taps may need more.
 KAGEFUDE_CLONES
-void splitTaps(float w, float h, float maxProbes, int lastLevel, GrainTaps& taps) {
+void measureTaps(float w, float h, int lastLevel, GrainTaps& taps) {
   const float most = static_cast<float>(lastLevel);
-  float* __restrict coarser = taps.coarser, * __restrict stepU = taps.stepU, * __restrict stepV = taps.stepV;
-  int* __restrict probes = taps.probes, * __restrict level = taps.level;
+  float* __restrict coarser = taps.coarser;
+  int* __restrict stretched = taps.stretched, * __restrict level = taps.level;
   const int count = taps.count;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
-    float n, lod, du, dv;
-    grainEllipse(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h, w, h, maxProbes, n,
-                 lod, du, dv);
-    const float between = lod < most ? lod : most;
-    const int fine = static_cast<int>(between);
-    const float share = levelShare(between - static_cast<float>(fine));
-    probes[i] = static_cast<int>(n);
-    level[i] = fine + (share >= 1.0f ? 1 : 0);
-    coarser[i] = share >= 1.0f ? 0.0f : share;
-    stepU[i] = du;
-    stepV[i] = dv;
+    const GrainEllipse e =
+        grainEllipse(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h);
+    const LevelMix mix = mixAt(grainLod(e.length, e.shortest), most);
+    level[i] = mix.level;
+    coarser[i] = mix.coarser;
+    stretched[i] = isStretched(e) ? 1 : 0;
   }
 }
 
-/// Lookups of single levels, at most a few per tap.
+// Several probes for a group of taps: places become those of the first probes, weights those of
+// each. Roots and divisions that most groups do without.
+KAGEFUDE_CLONES
+void splitTaps(float w, float h, float maxProbes, int lastLevel, int first, GrainTaps& taps) {
+  const float most = static_cast<float>(lastLevel);
+#pragma GCC ivdep
+  for (int i = first; i < first + grainLanes; ++i) {
+    const GrainEllipse e =
+        grainEllipse(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h);
+    float n, lod, du, dv;
+    grainProbes(e, w, h, maxProbes, n, lod, du, dv);
+    const LevelMix mix = mixAt(lod, most);
+    const float back = 0.5f * (n - 1.0f);
+    taps.level[i] = mix.level;
+    taps.coarser[i] = mix.coarser;
+    taps.probes[i] = static_cast<int>(n);
+    taps.stepU[i] = du;
+    taps.stepV[i] = dv;
+    taps.u[i] -= back * du;
+    taps.across[i] -= back * dv;
+    taps.weight[i] *= 1.0f / n;
+  }
+}
+
+/// Lookups of single levels beyond each tap's first, a group at a time.
 struct Lookups {
   static constexpr int most = 512;
   int count = 0;
   alignas(64) float u[most], across[most], weight[most], value[most];
   alignas(64) int level[most];
-  int tap[most];
+  int pixel[most / grainLanes];
 };
 
 /// Loops of their own, or the compiler keeps branches and plain registers.
@@ -145,124 +178,109 @@ void readLevels(const LevelSizes& sizes, const float* u, const float* across, co
   interpolate(found, count, value);
 }
 
-// First probe of every tap; others follow from the list.
+// One more probe of a group, or the same in the next level.
 KAGEFUDE_CLONES
-void placeFirst(const GrainTaps& taps, int first, int count, float* __restrict u,
-                float* __restrict across) {
+void fillLookups(const GrainTaps& taps, int first, int probe, int levelsUp, int last, int to,
+                 Lookups& list) {
+  const float steps = static_cast<float>(probe), up = static_cast<float>(levelsUp);
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) {
-    const float back = 0.5f * static_cast<float>(taps.probes[first + i] - 1);
-    u[i] = taps.u[first + i] - back * taps.stepU[first + i];
-    across[i] = taps.across[first + i] - back * taps.stepV[first + i];
+  for (int l = 0; l < grainLanes; ++l) {
+    const float coarser = taps.coarser[first + l];
+    const float share = up > 0.0f ? coarser : 1.0f - coarser;
+    const float weight = taps.weight[first + l] * share;
+    const int level = taps.level[first + l] + levelsUp;
+    list.u[to + l] = taps.u[first + l] + steps * taps.stepU[first + l];
+    list.across[to + l] = taps.across[first + l] + steps * taps.stepV[first + l];
+    list.level[to + l] = level < last ? level : last;
+    list.weight[to + l] = probe < taps.probes[first + l] ? weight : 0.0f;
   }
 }
 
 KAGEFUDE_CLONES
-void mixLevels(const float* __restrict coarse, const float* __restrict coarser, int count,
-               float* __restrict value) {
+void setSingle(int first, GrainTaps& taps) {
+  for (int i = first; i < first + grainLanes; ++i) {
+    taps.probes[i] = 1;
+    taps.stepU[i] = taps.stepV[i] = 0.0f;
+  }
+}
+
+KAGEFUDE_CLONES
+void addGroup(const float* __restrict value, const float* __restrict weight, float* __restrict sums) {
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) value[i] += (coarse[i] - value[i]) * coarser[i];
+  for (int l = 0; l < grainLanes; ++l) sums[l] += value[l] * weight[l];
 }
 
 KAGEFUDE_CLONES
-void nextLevels(const int* __restrict level, int last, int count, int* __restrict next) {
+void addFadingGroup(const float* __restrict value, const float* __restrict weight,
+                    const float* __restrict coarser, float* __restrict sums) {
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) next[i] = level[i] < last ? level[i] + 1 : last;
-}
-
-KAGEFUDE_CLONES
-bool anyAbove(const float* __restrict values, int count) {
-  int above = 0;
-  for (int i = 0; i < count; ++i) above |= values[i] > 0.0f ? 1 : 0;
-  return above != 0;
-}
-
-KAGEFUDE_CLONES
-int largestOf(const int* __restrict values, int count) {
-  int largest = 0;
-  for (int i = 0; i < count; ++i) largest = values[i] > largest ? values[i] : largest;
-  return largest;
+  for (int l = 0; l < grainLanes; ++l) sums[l] += value[l] * (weight[l] * (1.0f - coarser[l]));
 }
 
 class GrainReader {
  public:
-  GrainReader(const StripGrain& grain, GrainTaps& taps) : sizes_(grain), taps_(taps) {}
-
-  int lastLevel() const { return sizes_.last; }
+  GrainReader(const StripGrain& grain, int maxProbes, GrainTaps& taps, float* sums)
+      : sizes_(grain), full_(grain.levels.front()), maxProbes_(static_cast<float>(maxProbes)),
+        taps_(taps), sums_(sums) {}
 
   void read() {
-    for (int first = 0; first < taps_.count; first += brushBlock)
-      readFirst(first, std::min(first + brushBlock, taps_.count));
-    if (largestOf(taps_.probes, taps_.count) < 2) return;
-    for (int i = 0; i < taps_.count; ++i)
-      for (int probe = 1; probe < taps_.probes[i]; ++probe) addProbe(i, probe);
+    const float w = static_cast<float>(full_.width), h = static_cast<float>(full_.height);
+    measureTaps(w, h, sizes_.last, taps_);
+    for (int first = 0; first < taps_.count; first += grainLanes)
+      if (bitsOf(taps_.stretched + first) != 0)
+        splitTaps(w, h, maxProbes_, sizes_.last, first, taps_);
+    for (int first = 0; first < taps_.count; first += Lookups::most)
+      readLevels(sizes_, taps_.u + first, taps_.across + first, taps_.level + first,
+                 std::min(Lookups::most, taps_.count - first), taps_.value + first);
+    for (int first = 0; first < taps_.count; first += grainLanes) addFirst(first);
     flush();
   }
 
  private:
-  void readFirst(int first, int end) {
-    alignas(64) float u[brushBlock], across[brushBlock], coarse[brushBlock];
-    alignas(64) int next[brushBlock];
-    const int count = end - first;
-    placeFirst(taps_, first, count, u, across);
-    readLevels(sizes_, u, across, taps_.level + first, count, taps_.value + first);
-    if (!anyAbove(taps_.coarser + first, count)) return;
-    nextLevels(taps_.level + first, sizes_.last, count, next);
-    readLevels(sizes_, u, across, next, count, coarse);
-    mixLevels(coarse, taps_.coarser + first, count, taps_.value + first);
+  // Sums a group's first probes and lists what else it reads.
+  void addFirst(int first) {
+    float* const sums = sums_ + taps_.pixel[first / grainLanes];
+    const bool fades = bitsOf(taps_.coarser + first) != 0;
+    const bool splits = bitsOf(taps_.stretched + first) != 0;
+    if (!fades && !splits) return addGroup(taps_.value + first, taps_.weight + first, sums);
+    addFadingGroup(taps_.value + first, taps_.weight + first, taps_.coarser + first, sums);
+    if (!splits) setSingle(first, taps_);
+    const int* const probes = taps_.probes + first;
+    const int largest = *std::max_element(probes, probes + grainLanes);
+    for (int probe = 0; probe < largest; ++probe) {
+      if (probe > 0) add(first, probe, 0);
+      if (fades) add(first, probe, 1);
+    }
   }
 
-  void addProbe(int tap, int probe) {
-    const float offset =
-        static_cast<float>(probe) - 0.5f * static_cast<float>(taps_.probes[tap] - 1);
-    const float u = taps_.u[tap] + offset * taps_.stepU[tap];
-    const float across = taps_.across[tap] + offset * taps_.stepV[tap];
-    const float coarser = taps_.coarser[tap];
-    add(tap, u, across, taps_.level[tap], 1.0f - coarser);
-    if (coarser > 0.0f) add(tap, u, across, taps_.level[tap] + 1, coarser);
-  }
-
-  void add(int tap, float u, float across, int level, float weight) {
+  void add(int first, int probe, int levelsUp) {
     if (list_->count == Lookups::most) flush();
-    const int n = list_->count++;
-    list_->u[n] = u;
-    list_->across[n] = across;
-    list_->level[n] = level;
-    list_->weight[n] = weight;
-    list_->tap[n] = tap;
+    list_->pixel[list_->count / grainLanes] = taps_.pixel[first / grainLanes];
+    fillLookups(taps_, first, probe, levelsUp, sizes_.last, list_->count, *list_);
+    list_->count += grainLanes;
   }
 
   void flush() {
     readLevels(sizes_, list_->u, list_->across, list_->level, list_->count, list_->value);
-    for (int i = 0; i < list_->count; ++i)
-      taps_.value[list_->tap[i]] += list_->value[i] * list_->weight[i];
+    for (int first = 0; first < list_->count; first += grainLanes)
+      addGroup(list_->value + first, list_->weight + first,
+               sums_ + list_->pixel[first / grainLanes]);
     list_->count = 0;
   }
 
   LevelSizes sizes_;
+  const StripGrain::Level& full_;
+  float maxProbes_;
   GrainTaps& taps_;
+  float* sums_;
   std::unique_ptr<Lookups> list_ = std::make_unique_for_overwrite<Lookups>();
 };
-
-KAGEFUDE_CLONES
-void sumFirst(const GrainTaps& taps, float* __restrict sums) {
-  const int pixels = taps.pixels;
-#pragma GCC ivdep
-  for (int i = 0; i < pixels; ++i)
-    sums[i] = taps.value[i] * (taps.weight[i] / static_cast<float>(taps.probes[i]));
-}
 
 }  // namespace
 
 void readGrain(const StripGrain& grain, int maxProbes, GrainTaps& taps, float* sums) {
-  GrainReader reader(grain, taps);
-  const StripGrain::Level& full = grain.levels.front();
-  splitTaps(static_cast<float>(full.width), static_cast<float>(full.height),
-            static_cast<float>(maxProbes), reader.lastLevel(), taps);
-  reader.read();
-  sumFirst(taps, sums);
-  for (int i = taps.pixels; i < taps.count; ++i)
-    sums[taps.pixel[i]] += taps.value[i] * (taps.weight[i] / static_cast<float>(taps.probes[i]));
+  std::fill_n(sums, brushBlock, 0.0f);
+  GrainReader(grain, maxProbes, taps, sums).read();
 }
 
 }  // namespace kagefude
