@@ -163,22 +163,22 @@ void gainContrast(float contrast, float octaves, float keep, int count, BrushBlo
   }
 }
 
-// Asks for what the block behind this one reads first: so many planes are read side by side, and so
+// Asks for what the next row's block reads first: so many planes are read side by side, and so
 // briefly each, that the processor does not foresee it.
 template <class T>
-void fetchNext(const T* row, int end) {
+void fetchAhead(const View<const T>& plane, int first, int end, int y) {
   constexpr int line = 64 / sizeof(T);
-  for (int x = end; x < end + brushBlock; x += line) __builtin_prefetch(row + x, 0, 2);
+  const T* row = plane.row(std::min(y, plane.height - 1));
+  for (int x = first; x < end; x += line) __builtin_prefetch(row + x, 0, 2);
 }
 
-void fetchNextBlock(const BrushInput& in, int end, int y) {
-  const int below = y + 1 < in.index.height ? y + 1 : y;
+void fetchNextBlock(const BrushInput& in, int first, int end, int y) {
   for (const View<const float>& plane : {in.position.x, in.position.y, in.position.z, in.tone})
-    fetchNext(plane.row(below), end);
-  fetchNext(in.index.row(below), end);
+    fetchAhead(plane, first, end, y + 2);
+  fetchAhead(in.index, first, end, y + 2);
   if (in.normal.empty()) return;
   for (const View<const float>& plane : {in.normal.x, in.normal.y, in.normal.z})
-    fetchNext(plane.row(y), end);
+    fetchAhead(plane, first, end, y + 1);
 }
 
 }  // namespace
@@ -187,7 +187,7 @@ void loadBlock(const BrushInput& in, const BrushAnchor& anchor, int first, int e
                BrushBlock& block) {
   const int count = end - first;
   const uint16_t own = in.index(first, y);
-  fetchNextBlock(in, end, y);
+  fetchNextBlock(in, first, end, y);
   loadLine(in, first, end, y - 1, own, block.above);
   loadLine(in, first, end, y, own, block.here);
   loadLine(in, first, end, y + 1, own, block.below);

@@ -18,7 +18,7 @@ struct GrainTaps {
   alignas(64) float u[most], across[most], weight[most];
   alignas(64) float ux[most], uy[most], vx[most], vy[most];
   alignas(64) float stepU[most], stepV[most], coarser[most], value[most];
-  alignas(64) int probes[most], level[most], stretched[most];
+  alignas(64) int probes[most], level[most], larger[most];
   int pixel[most / grainLanes];  ///< the first pixel of each group
 
   alignas(64) float faces[3][brushBlock];  ///< how much the surface faces each axis

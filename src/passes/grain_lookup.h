@@ -89,10 +89,20 @@ inline GrainEllipse grainEllipse(float ux, float vx, float uy, float vy) {
   return {length, narrow > least ? narrow : least, a, b, c, spread};
 }
 
-/// Whether an ellipse may need more than one probe: just below the ratio at which it does.
-inline bool isStretched(const GrainEllipse& e) {
-  constexpr float ratio = (1.0f + grainTolerance) * (1.0f + grainTolerance) * 0.9999f;
-  return e.length > ratio * e.shortest;
+/// Whether one probe of level 0 alone does, found without roots and divisions: the ellipse's squared
+/// lengths are the eigenvalues of its form, and its polynomial's signs bound them. A little narrower
+/// than grainProbes and levelShare have it, so that roundings cannot matter.
+inline bool needsOneTexel(float ux, float vx, float uy, float vy) {
+  constexpr float longest = 6.1f;   // of 6.125: (1 + grainTolerance) bilinearWidth, squared
+  constexpr float shortest = 2.9f;  // of 3.03: 2 to the power of 2 (0.5 + (1 - levelFade) / 2)
+  const float trace = ux * ux + uy * uy + (vx * vx + vy * vy);
+  const float area = ux * vy - uy * vx;
+  const float determinant = area * area;
+  const float atLongest = longest * longest - trace * longest + determinant;
+  const float atShortest = shortest * shortest - trace * shortest + determinant;
+  const bool isShort = (trace <= 2.0f * longest) & (atLongest >= 0.0f);
+  const bool isNarrow = (trace <= 2.0f * shortest) | (atShortest <= 0.0f);
+  return isShort & isNarrow;
 }
 
 /// Level of a probe that covers `share` of the long axis, squared.

@@ -40,25 +40,23 @@ inline LevelMix mixAt(float lod, float most) {
   return {fine + (share >= 1.0f ? 1 : 0), share >= 1.0f ? 0.0f : share};
 }
 
-// One probe for every tap, and which taps may need more.
+// One texel's probe for every tap, and which taps need more.
 KAGEFUDE_CLONES
-void measureTaps(float w, float h, int lastLevel, GrainTaps& taps) {
-  const float most = static_cast<float>(lastLevel);
+void measureTaps(float w, float h, GrainTaps& taps) {
   float* __restrict coarser = taps.coarser;
-  int* __restrict stretched = taps.stretched, * __restrict level = taps.level;
+  int* __restrict larger = taps.larger, * __restrict level = taps.level;
   const int count = taps.count;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
-    const GrainEllipse e =
-        grainEllipse(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h);
-    const LevelMix mix = mixAt(grainLod(e.length, e.shortest), most);
-    level[i] = mix.level;
-    coarser[i] = mix.coarser;
-    stretched[i] = isStretched(e) ? 1 : 0;
+    const bool one =
+        needsOneTexel(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h);
+    larger[i] = one ? 0 : 1;
+    level[i] = 0;
+    coarser[i] = 0.0f;
   }
 }
 
-// Several probes for a group of taps: places become those of the first probes, weights those of
+// Levels and probes of a group of taps: places become those of the first probes, weights those of
 // each. Roots and divisions that most groups do without.
 KAGEFUDE_CLONES
 void splitTaps(float w, float h, float maxProbes, int lastLevel, int first, GrainTaps& taps) {
@@ -76,6 +74,9 @@ void splitTaps(float w, float h, float maxProbes, int lastLevel, int first, Grai
     taps.probes[i] = static_cast<int>(n);
     taps.stepU[i] = du;
     taps.stepV[i] = dv;
+    // The footprint is done with: it keeps the middle.
+    taps.ux[i] = taps.u[i];
+    taps.vx[i] = taps.across[i];
     taps.u[i] -= back * du;
     taps.across[i] -= back * dv;
     taps.weight[i] *= 1.0f / n;
@@ -189,18 +190,11 @@ void fillLookups(const GrainTaps& taps, int first, int probe, int levelsUp, int 
     const float share = up > 0.0f ? coarser : 1.0f - coarser;
     const float weight = taps.weight[first + l] * share;
     const int level = taps.level[first + l] + levelsUp;
-    list.u[to + l] = taps.u[first + l] + steps * taps.stepU[first + l];
-    list.across[to + l] = taps.across[first + l] + steps * taps.stepV[first + l];
+    const float offset = steps - 0.5f * static_cast<float>(taps.probes[first + l] - 1);
+    list.u[to + l] = taps.ux[first + l] + offset * taps.stepU[first + l];
+    list.across[to + l] = taps.vx[first + l] + offset * taps.stepV[first + l];
     list.level[to + l] = level < last ? level : last;
     list.weight[to + l] = probe < taps.probes[first + l] ? weight : 0.0f;
-  }
-}
-
-KAGEFUDE_CLONES
-void setSingle(int first, GrainTaps& taps) {
-  for (int i = first; i < first + grainLanes; ++i) {
-    taps.probes[i] = 1;
-    taps.stepU[i] = taps.stepV[i] = 0.0f;
   }
 }
 
@@ -225,9 +219,9 @@ class GrainReader {
 
   void read() {
     const float w = static_cast<float>(full_.width), h = static_cast<float>(full_.height);
-    measureTaps(w, h, sizes_.last, taps_);
+    measureTaps(w, h, taps_);
     for (int first = 0; first < taps_.count; first += grainLanes)
-      if (bitsOf(taps_.stretched + first) != 0)
+      if (bitsOf(taps_.larger + first) != 0)
         splitTaps(w, h, maxProbes_, sizes_.last, first, taps_);
     for (int first = 0; first < taps_.count; first += Lookups::most)
       readLevels(sizes_, taps_.u + first, taps_.across + first, taps_.level + first,
@@ -240,11 +234,10 @@ class GrainReader {
   // Sums a group's first probes and lists what else it reads.
   void addFirst(int first) {
     float* const sums = sums_ + taps_.pixel[first / grainLanes];
-    const bool fades = bitsOf(taps_.coarser + first) != 0;
-    const bool splits = bitsOf(taps_.stretched + first) != 0;
-    if (!fades && !splits) return addGroup(taps_.value + first, taps_.weight + first, sums);
+    if (bitsOf(taps_.larger + first) == 0)
+      return addGroup(taps_.value + first, taps_.weight + first, sums);
     addFadingGroup(taps_.value + first, taps_.weight + first, taps_.coarser + first, sums);
-    if (!splits) setSingle(first, taps_);
+    const bool fades = bitsOf(taps_.coarser + first) != 0;
     const int* const probes = taps_.probes + first;
     const int largest = *std::max_element(probes, probes + grainLanes);
     for (int probe = 0; probe < largest; ++probe) {
