@@ -1,7 +1,6 @@
 #pragma once
 
 #include <bit>
-#include <cstring>
 
 #include "passes/strip_lookup.h"
 
@@ -31,15 +30,8 @@ struct GrainPlace {
 inline GrainPlace grainPlace(float u, float halfAcross, int width, int height, int offset) {
   const RowPlace row = rowPlace(std::fabs(2.0f * halfAcross - 1.0f), height);
   const ColumnPlace column = columnPlace(u, width);
-  return {offset + row.upper * (width + 1) + column.left, column.fraction, row.fraction};
-}
-
-/// Four texels round a place as bytes: here, right, below and below right.
-inline uint32_t fourTexels(const uint8_t* pool, int texel, int stride) {
-  uint16_t upper, lower;
-  std::memcpy(&upper, pool + texel, 2);
-  std::memcpy(&lower, pool + texel + stride, 2);
-  return upper | static_cast<uint32_t>(lower) << 16;
+  return {offset + grainTexel(column.left, row.upper, (width + 3) >> 2), column.fraction,
+          row.fraction};
 }
 
 /// The grain between four packed texels.
@@ -56,7 +48,7 @@ inline float grainAt(const StripGrain& grain, size_t level, float u, float w) {
   const StripGrain::Level& l = grain.levels[level];
   const GrainPlace place =
       grainPlace(fractionOf(u), fractionOf(0.5f * w), l.width, l.height, l.offset);
-  return grainBetween(fourTexels(grain.pool.row(0), place.texel, l.stride()), place.fx, place.fy);
+  return grainBetween(grain.pool.row(0)[place.texel], place.fx, place.fy);
 }
 
 /// As log2Of within 2e-4, without a division.

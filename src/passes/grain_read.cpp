@@ -14,7 +14,7 @@ struct LevelSizes {
   static constexpr int most = 16;
   int width[most], height[most], offset[most];
   int last = 0;
-  const uint8_t* pool = nullptr;
+  const uint32_t* pool = nullptr;
 
   explicit LevelSizes(const StripGrain& grain)
       : last(static_cast<int>(grain.levels.size()) - 1), pool(grain.pool.row(0)) {
@@ -138,13 +138,8 @@ void placeInLevel(int width, int height, int offset, const float* __restrict u,
 }
 
 // One by one: gathering in vector registers costs more than it saves.
-void fetch(const uint8_t* pool, int stride, int count, Found& found) {
-  for (int i = 0; i < count; ++i) found.four[i] = fourTexels(pool, found.texel[i], stride);
-}
-
-void fetch(const uint8_t* pool, const int* widths, const int* level, int count, Found& found) {
-  for (int i = 0; i < count; ++i)
-    found.four[i] = fourTexels(pool, found.texel[i], widths[level[i]] + 1);
+void fetch(const uint32_t* pool, int count, Found& found) {
+  for (int i = 0; i < count; ++i) found.four[i] = pool[found.texel[i]];
 }
 
 KAGEFUDE_CLONES
@@ -171,11 +166,10 @@ void readLevels(const LevelSizes& sizes, const float* u, const float* across, co
     const int l = level[0];
     placeInLevel(sizes.width[l], sizes.height[l], sizes.offset[l], wrappedU, wrappedAcross, count,
                  found);
-    fetch(sizes.pool, sizes.width[l] + 1, count, found);
   } else {
     placeInLevels(sizes, wrappedU, wrappedAcross, level, count, found);
-    fetch(sizes.pool, sizes.width, level, count, found);
   }
+  fetch(sizes.pool, count, found);
   interpolate(found, count, value);
 }
 
