@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstring>
+#include <memory>
 
 #include "passes/brush_block.h"
 
@@ -19,6 +20,9 @@ struct GrainTaps {
   alignas(64) float ux[most], uy[most], vx[most], vy[most];
   alignas(64) float stepU[most], stepV[most], coarser[most], value[most];
   alignas(64) int probes[most], level[most], larger[most];
+  /// Where the first probes lie in the grain's pool, and their shares of the next texels.
+  alignas(64) int texel[most];
+  alignas(64) float fx[most], fy[most];
   int pixel[most / grainLanes];  ///< the first pixel of each group
 
   alignas(64) float faces[3][brushBlock];  ///< how much the surface faces each axis
@@ -41,8 +45,30 @@ inline int bitsOf(const T* group) {
 void listGrainTaps(const BrushInput& in, const BrushAnchor& anchor, float aspect, int count,
                    BrushBlock& block, GrainTaps& taps);
 
-/// Reads the grain of every tap, filtered over its footprint, and sums it into sums[pixel],
-/// brushBlock of them.
-void readGrain(const StripGrain& grain, int maxProbes, GrainTaps& taps, float* sums);
+/// Reads a grain for one block of taps after the other, in two steps, so that the caller has time
+/// to fill with other work while the texels come.
+class GrainReader {
+ public:
+  GrainReader(const StripGrain& grain, int maxProbes);
+  ~GrainReader();
+
+  /// Finds levels, probes and places of every tap, and asks for the first probes' texels.
+  void place(GrainTaps& taps) const;
+
+  /// Reads the grain of every placed tap, filtered over its footprint, and sums it into
+  /// sums[pixel], brushBlock of them.
+  void read(GrainTaps& taps, float* sums);
+
+ private:
+  struct Lookups;
+
+  void addFirst(GrainTaps& taps, int first, float* sums);
+  void add(const GrainTaps& taps, int first, int probe, int levelsUp, float* sums);
+  void flush(float* sums);
+
+  const StripGrain& grain_;
+  float maxProbes_;
+  std::unique_ptr<Lookups> list_;  ///< probes and levels beyond each tap's first
+};
 
 }  // namespace kagefude

@@ -83,15 +83,6 @@ void splitTaps(float w, float h, float maxProbes, int lastLevel, int first, Grai
   }
 }
 
-/// Lookups of single levels beyond each tap's first, a group at a time.
-struct Lookups {
-  static constexpr int most = 512;
-  int count = 0;
-  alignas(64) float u[most], across[most], weight[most], value[most];
-  alignas(64) int level[most];
-  int pixel[most / grainLanes];
-};
-
 /// Loops of their own, or the compiler keeps branches and plain registers.
 KAGEFUDE_CLONES
 void wrapPlaces(const float* __restrict places, float scale, int count, float* __restrict wrapped) {
@@ -99,19 +90,18 @@ void wrapPlaces(const float* __restrict places, float scale, int count, float* _
   for (int i = 0; i < count; ++i) wrapped[i] = fractionOf(places[i] * scale);
 }
 
-/// Where lookups lie, and the texels found there.
-struct Found {
-  alignas(64) int texel[Lookups::most];
-  alignas(64) float fx[Lookups::most], fy[Lookups::most];
-  alignas(64) uint32_t four[Lookups::most];
+/// Where lookups are written to.
+struct Places {
+  int* texel;
+  float *fx, *fy;
 };
 
 KAGEFUDE_CLONES
 void placeInLevels(const LevelSizes& sizes, const float* __restrict u,
                    const float* __restrict across, const int* __restrict level, int count,
-                   Found& found) {
-  int* __restrict texel = found.texel;
-  float* __restrict fx = found.fx, * __restrict fy = found.fy;
+                   const Places& places) {
+  int* __restrict texel = places.texel;
+  float* __restrict fx = places.fx, * __restrict fy = places.fy;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const int l = level[i];
@@ -125,9 +115,9 @@ void placeInLevels(const LevelSizes& sizes, const float* __restrict u,
 
 KAGEFUDE_CLONES
 void placeInLevel(int width, int height, int offset, const float* __restrict u,
-                  const float* __restrict across, int count, Found& found) {
-  int* __restrict texel = found.texel;
-  float* __restrict fx = found.fx, * __restrict fy = found.fy;
+                  const float* __restrict across, int count, const Places& places) {
+  int* __restrict texel = places.texel;
+  float* __restrict fx = places.fx, * __restrict fy = places.fy;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const GrainPlace place = grainPlace(u[i], across[i], width, height, offset);
@@ -137,15 +127,11 @@ void placeInLevel(int width, int height, int offset, const float* __restrict u,
   }
 }
 
-// One by one: gathering in vector registers costs more than it saves.
-void fetch(const uint32_t* pool, int count, Found& found) {
-  for (int i = 0; i < count; ++i) found.four[i] = pool[found.texel[i]];
-}
-
 KAGEFUDE_CLONES
-void interpolate(const Found& found, int count, float* __restrict value) {
+void interpolate(const uint32_t* __restrict four, const float* __restrict fx,
+                 const float* __restrict fy, int count, float* __restrict value) {
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) value[i] = grainBetween(found.four[i], found.fx[i], found.fy[i]);
+  for (int i = 0; i < count; ++i) value[i] = grainBetween(four[i], fx[i], fy[i]);
 }
 
 KAGEFUDE_CLONES
@@ -156,27 +142,37 @@ bool allEqual(const int* __restrict level, int count) {
 }
 
 // Neighbours mostly lie in the same level: then its sizes need not be looked up.
-void readLevels(const LevelSizes& sizes, const float* u, const float* across, const int* level,
-                int count, float* value) {
-  alignas(64) float wrappedU[Lookups::most], wrappedAcross[Lookups::most];
+void placeLookups(const LevelSizes& sizes, const float* u, const float* across, const int* level,
+                  int count, const Places& places) {
+  alignas(64) float wrappedU[GrainTaps::most], wrappedAcross[GrainTaps::most];
   wrapPlaces(u, 1.0f, count, wrappedU);
   wrapPlaces(across, 0.5f, count, wrappedAcross);
-  Found found;
   if (count > 0 && allEqual(level, count)) {
     const int l = level[0];
     placeInLevel(sizes.width[l], sizes.height[l], sizes.offset[l], wrappedU, wrappedAcross, count,
-                 found);
+                 places);
   } else {
-    placeInLevels(sizes, wrappedU, wrappedAcross, level, count, found);
+    placeInLevels(sizes, wrappedU, wrappedAcross, level, count, places);
   }
-  fetch(sizes.pool, count, found);
-  interpolate(found, count, value);
 }
+
+// Texels one by one: gathering in vector registers costs more than it saves.
+void readPlaces(const uint32_t* pool, const Places& places, int count, float* value) {
+  alignas(64) uint32_t four[GrainTaps::most];
+  for (int i = 0; i < count; ++i) four[i] = pool[places.texel[i]];
+  interpolate(four, places.fx, places.fy, count, value);
+}
+
+/// Where a group of lookups is written to.
+struct LookupRows {
+  float *u, *across, *weight;
+  int* level;
+};
 
 // One more probe of a group, or the same in the next level.
 KAGEFUDE_CLONES
-void fillLookups(const GrainTaps& taps, int first, int probe, int levelsUp, int last, int to,
-                 Lookups& list) {
+void fillLookups(const GrainTaps& taps, int first, int probe, int levelsUp, int last,
+                 const LookupRows& list) {
   const float steps = static_cast<float>(probe), up = static_cast<float>(levelsUp);
 #pragma GCC ivdep
   for (int l = 0; l < grainLanes; ++l) {
@@ -185,10 +181,10 @@ void fillLookups(const GrainTaps& taps, int first, int probe, int levelsUp, int 
     const float weight = taps.weight[first + l] * share;
     const int level = taps.level[first + l] + levelsUp;
     const float offset = steps - 0.5f * static_cast<float>(taps.probes[first + l] - 1);
-    list.u[to + l] = taps.ux[first + l] + offset * taps.stepU[first + l];
-    list.across[to + l] = taps.vx[first + l] + offset * taps.stepV[first + l];
-    list.level[to + l] = level < last ? level : last;
-    list.weight[to + l] = probe < taps.probes[first + l] ? weight : 0.0f;
+    list.u[l] = taps.ux[first + l] + offset * taps.stepU[first + l];
+    list.across[l] = taps.vx[first + l] + offset * taps.stepV[first + l];
+    list.level[l] = level < last ? level : last;
+    list.weight[l] = probe < taps.probes[first + l] ? weight : 0.0f;
   }
 }
 
@@ -205,69 +201,77 @@ void addFadingGroup(const float* __restrict value, const float* __restrict weigh
   for (int l = 0; l < grainLanes; ++l) sums[l] += value[l] * (weight[l] * (1.0f - coarser[l]));
 }
 
-class GrainReader {
- public:
-  GrainReader(const StripGrain& grain, int maxProbes, GrainTaps& taps, float* sums)
-      : sizes_(grain), full_(grain.levels.front()), maxProbes_(static_cast<float>(maxProbes)),
-        taps_(taps), sums_(sums) {}
-
-  void read() {
-    const float w = static_cast<float>(full_.width), h = static_cast<float>(full_.height);
-    measureTaps(w, h, taps_);
-    for (int first = 0; first < taps_.count; first += grainLanes)
-      if (bitsOf(taps_.larger + first) != 0)
-        splitTaps(w, h, maxProbes_, sizes_.last, first, taps_);
-    for (int first = 0; first < taps_.count; first += Lookups::most)
-      readLevels(sizes_, taps_.u + first, taps_.across + first, taps_.level + first,
-                 std::min(Lookups::most, taps_.count - first), taps_.value + first);
-    for (int first = 0; first < taps_.count; first += grainLanes) addFirst(first);
-    flush();
-  }
-
- private:
-  // Sums a group's first probes and lists what else it reads.
-  void addFirst(int first) {
-    float* const sums = sums_ + taps_.pixel[first / grainLanes];
-    if (bitsOf(taps_.larger + first) == 0)
-      return addGroup(taps_.value + first, taps_.weight + first, sums);
-    addFadingGroup(taps_.value + first, taps_.weight + first, taps_.coarser + first, sums);
-    const bool fades = bitsOf(taps_.coarser + first) != 0;
-    const int* const probes = taps_.probes + first;
-    const int largest = *std::max_element(probes, probes + grainLanes);
-    for (int probe = 0; probe < largest; ++probe) {
-      if (probe > 0) add(first, probe, 0);
-      if (fades) add(first, probe, 1);
-    }
-  }
-
-  void add(int first, int probe, int levelsUp) {
-    if (list_->count == Lookups::most) flush();
-    list_->pixel[list_->count / grainLanes] = taps_.pixel[first / grainLanes];
-    fillLookups(taps_, first, probe, levelsUp, sizes_.last, list_->count, *list_);
-    list_->count += grainLanes;
-  }
-
-  void flush() {
-    readLevels(sizes_, list_->u, list_->across, list_->level, list_->count, list_->value);
-    for (int first = 0; first < list_->count; first += grainLanes)
-      addGroup(list_->value + first, list_->weight + first,
-               sums_ + list_->pixel[first / grainLanes]);
-    list_->count = 0;
-  }
-
-  LevelSizes sizes_;
-  const StripGrain::Level& full_;
-  float maxProbes_;
-  GrainTaps& taps_;
-  float* sums_;
-  std::unique_ptr<Lookups> list_ = std::make_unique_for_overwrite<Lookups>();
-};
-
 }  // namespace
 
-void readGrain(const StripGrain& grain, int maxProbes, GrainTaps& taps, float* sums) {
+/// Lookups of single levels beyond each tap's first, a group at a time.
+struct GrainReader::Lookups {
+  static constexpr int most = 512;
+  int count = 0;
+  alignas(64) float u[most], across[most], weight[most], value[most];
+  alignas(64) float fx[most], fy[most];
+  alignas(64) int level[most], texel[most];
+  int pixel[most / grainLanes];
+};
+
+GrainReader::GrainReader(const StripGrain& grain, int maxProbes)
+    : grain_(grain), maxProbes_(static_cast<float>(maxProbes)),
+      list_(std::make_unique_for_overwrite<Lookups>()) {
+  list_->count = 0;
+}
+
+GrainReader::~GrainReader() = default;
+
+void GrainReader::place(GrainTaps& taps) const {
+  const LevelSizes sizes(grain_);
+  const StripGrain::Level& full = grain_.levels.front();
+  const float w = static_cast<float>(full.width), h = static_cast<float>(full.height);
+  measureTaps(w, h, taps);
+  for (int first = 0; first < taps.count; first += grainLanes)
+    if (bitsOf(taps.larger + first) != 0) splitTaps(w, h, maxProbes_, sizes.last, first, taps);
+  placeLookups(sizes, taps.u, taps.across, taps.level, taps.count,
+               {taps.texel, taps.fx, taps.fy});
+  for (int i = 0; i < taps.count; ++i) __builtin_prefetch(sizes.pool + taps.texel[i]);
+}
+
+void GrainReader::read(GrainTaps& taps, float* sums) {
   std::fill_n(sums, brushBlock, 0.0f);
-  GrainReader(grain, maxProbes, taps, sums).read();
+  readPlaces(grain_.pool.row(0), {taps.texel, taps.fx, taps.fy}, taps.count, taps.value);
+  for (int first = 0; first < taps.count; first += grainLanes) addFirst(taps, first, sums);
+  flush(sums);
+}
+
+// Sums a group's first probes and lists what else it reads.
+void GrainReader::addFirst(GrainTaps& taps, int first, float* sums) {
+  float* const to = sums + taps.pixel[first / grainLanes];
+  if (bitsOf(taps.larger + first) == 0)
+    return addGroup(taps.value + first, taps.weight + first, to);
+  addFadingGroup(taps.value + first, taps.weight + first, taps.coarser + first, to);
+  const bool fades = bitsOf(taps.coarser + first) != 0;
+  const int* const probes = taps.probes + first;
+  const int largest = *std::max_element(probes, probes + grainLanes);
+  for (int probe = 0; probe < largest; ++probe) {
+    if (probe > 0) add(taps, first, probe, 0, sums);
+    if (fades) add(taps, first, probe, 1, sums);
+  }
+}
+
+void GrainReader::add(const GrainTaps& taps, int first, int probe, int levelsUp, float* sums) {
+  if (list_->count == Lookups::most) flush(sums);
+  const int n = list_->count;
+  list_->pixel[n / grainLanes] = taps.pixel[first / grainLanes];
+  fillLookups(taps, first, probe, levelsUp, static_cast<int>(grain_.levels.size()) - 1,
+              {list_->u + n, list_->across + n, list_->weight + n, list_->level + n});
+  list_->count += grainLanes;
+}
+
+void GrainReader::flush(float* sums) {
+  Lookups& list = *list_;
+  const Places places{list.texel, list.fx, list.fy};
+  placeLookups(LevelSizes(grain_), list.u, list.across, list.level, list.count, places);
+  readPlaces(grain_.pool.row(0), places, list.count, list.value);
+  for (int first = 0; first < list.count; first += grainLanes)
+    addGroup(list.value + first, list.weight + first, sums + list.pixel[first / grainLanes]);
+  list.count = 0;
 }
 
 }  // namespace kagefude

@@ -102,15 +102,22 @@ void paintObjectRow(const BrushInput& in, const BrushAnchor& anchor, int first, 
   const Strip& strip = in.strips[static_cast<size_t>(anchor.strip)];
   const StripGrain::Level& full = strip.grain.levels.front();
   const float aspect = static_cast<float>(full.width) / static_cast<float>(full.height);
-  BrushBlock block;
+  BrushBlock blocks[2];
   GrainTaps taps;
   ColourPlaces places;
+  GrainReader reader(strip.grain, in.params.maxProbes);
   alignas(64) float grain[brushBlock];
-  for (int x = first; x < end; x += brushBlock) {
+  const auto load = [&](int x, int which) {
+    if (x < end) loadBlock(in, anchor, x, std::min(x + brushBlock, end), y, blocks[which]);
+  };
+  load(first, 0);
+  for (int x = first, which = 0; x < end; x += brushBlock, which = 1 - which) {
+    BrushBlock& block = blocks[which];
     const int count = std::min(end - x, brushBlock);
-    loadBlock(in, anchor, x, x + count, y, block);
     listGrainTaps(in, anchor, aspect, count, block, taps);
-    readGrain(strip.grain, in.params.maxProbes, taps, grain);
+    reader.place(taps);
+    load(x + brushBlock, 1 - which);  // while the texels come
+    reader.read(taps, grain);
     placeColours(strip.grain.toneRows, strip.grain.lastToneLevel, block, grain, count, places);
     if (in.params.contrast == 1.0f && strip.opaque && allPresent(block, count))
       storePlainly(strip, places, x, count, out);
