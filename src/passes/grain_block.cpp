@@ -149,11 +149,12 @@ void fillTaps(const BrushBlock& block, const GrainUnits& units, int pixel, int i
               const float* __restrict share, GrainTaps& taps) {
   const int n = taps.count;
   const float shift = axisOffset[i] + units.shift, shiftAcross = axisOffset[k];
-  const float *__restrict placeI = block.place[i] + pixel, *__restrict placeJ = block.place[j] + pixel;
-  const float *__restrict acrossI = block.placeAcross[i] + pixel,
-                          *__restrict acrossJ = block.placeAcross[j] + pixel;
-  const float *__restrict downI = block.placeDown[i] + pixel,
-                          *__restrict downJ = block.placeDown[j] + pixel;
+  const float* __restrict placeI = block.place[i] + pixel, * __restrict placeJ =
+                                                               block.place[j] + pixel;
+  const float* __restrict acrossI = block.placeAcross[i] + pixel, * __restrict acrossJ =
+                                                                      block.placeAcross[j] + pixel;
+  const float* __restrict downI = block.placeDown[i] + pixel, * __restrict downJ =
+                                                                  block.placeDown[j] + pixel;
 #pragma GCC ivdep
   for (int l = 0; l < grainLanes; ++l) {
     taps.u[n + l] = placeI[l] * units.u + shift;

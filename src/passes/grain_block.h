@@ -11,8 +11,8 @@ namespace kagefude {
 /// Patterns are listed for so many neighbouring pixels at a time: one vector register's worth.
 inline constexpr int grainLanes = 16;
 
-/// Patterns of a block's pixels, `grainLanes` neighbours at a time; a pixel of them that the pattern
-/// does not touch has weight 0.
+/// Patterns of a block's pixels, `grainLanes` neighbours at a time; a pixel of them that the
+/// pattern does not touch has weight 0.
 struct GrainTaps {
   static constexpr int most = 12 * brushBlock;
   int count = 0;  ///< a multiple of grainLanes
@@ -41,7 +41,8 @@ inline int bitsOf(const T* group) {
   return static_cast<int>(bits | bits >> 32);
 }
 
-/// Lists the taps of a loaded block (whose last group is made whole). `aspect`: width over height of the grain in texels.
+/// Lists the taps of a loaded block (whose last group is made whole). `aspect`: width over height
+/// of the grain in texels.
 void listGrainTaps(const BrushInput& in, const BrushAnchor& anchor, float aspect, int count,
                    BrushBlock& block, GrainTaps& taps);
 

@@ -81,9 +81,9 @@ inline GrainEllipse grainEllipse(float ux, float vx, float uy, float vy) {
   return {length, narrow > least ? narrow : least, a, b, c, spread};
 }
 
-/// Whether one probe of level 0 alone does, found without roots and divisions: the ellipse's squared
-/// lengths are the eigenvalues of its form, and its polynomial's signs bound them. A little narrower
-/// than grainProbes and levelShare have it, so that roundings cannot matter.
+/// Whether one probe of level 0 alone does, found without roots and divisions: the ellipse's
+/// squared lengths are the eigenvalues of its form, and its polynomial's signs bound them. A little
+/// narrower than grainProbes and levelShare have it, so that roundings cannot matter.
 inline bool needsOneTexel(float ux, float vx, float uy, float vy) {
   constexpr float longest = 6.1f;   // of 6.125: (1 + grainTolerance) bilinearWidth, squared
   constexpr float shortest = 2.9f;  // of 3.03: 2 to the power of 2 (0.5 + (1 - levelFade) / 2)

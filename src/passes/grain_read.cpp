@@ -48,8 +48,7 @@ void measureTaps(float w, float h, GrainTaps& taps) {
   const int count = taps.count;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
-    const bool one =
-        needsOneTexel(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h);
+    const bool one = needsOneTexel(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h);
     larger[i] = one ? 0 : 1;
     level[i] = 0;
     coarser[i] = 0.0f;
@@ -189,7 +188,8 @@ void fillLookups(const GrainTaps& taps, int first, int probe, int levelsUp, int 
 }
 
 KAGEFUDE_CLONES
-void addGroup(const float* __restrict value, const float* __restrict weight, float* __restrict sums) {
+void addGroup(const float* __restrict value, const float* __restrict weight,
+              float* __restrict sums) {
 #pragma GCC ivdep
   for (int l = 0; l < grainLanes; ++l) sums[l] += value[l] * weight[l];
 }
@@ -214,7 +214,8 @@ struct GrainReader::Lookups {
 };
 
 GrainReader::GrainReader(const StripGrain& grain, int maxProbes)
-    : grain_(grain), maxProbes_(static_cast<float>(maxProbes)),
+    : grain_(grain),
+      maxProbes_(static_cast<float>(maxProbes)),
       list_(std::make_unique_for_overwrite<Lookups>()) {
   list_->count = 0;
 }
@@ -228,8 +229,7 @@ void GrainReader::place(GrainTaps& taps) const {
   measureTaps(w, h, taps);
   for (int first = 0; first < taps.count; first += grainLanes)
     if (bitsOf(taps.larger + first) != 0) splitTaps(w, h, maxProbes_, sizes.last, first, taps);
-  placeLookups(sizes, taps.u, taps.across, taps.level, taps.count,
-               {taps.texel, taps.fx, taps.fy});
+  placeLookups(sizes, taps.u, taps.across, taps.level, taps.count, {taps.texel, taps.fx, taps.fy});
   for (int i = 0; i < taps.count; ++i) __builtin_prefetch(sizes.pool + taps.texel[i]);
 }
 
