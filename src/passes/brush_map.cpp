@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "image/parallel.h"
+#include "passes/brush_block.h"
 #include "passes/brush_pixel.h"
 #include "passes/brush_rows.h"
 #include "passes/brush_taps.h"
@@ -51,12 +54,16 @@ void paintPlainly(const BrushInput& in, int first, int end, int y, ColourRows& o
   }
 }
 
-// Pixels of one anchor at a time.
-void paintRow(const BrushInput& in, int y, bool keepOthers, ColourRows& out) {
+/// Bands are painted in columns so wide, that a column's pixels and the parts of the strips that
+/// they read stay in the cache from one row to the next.
+constexpr int columnWidth = 5 * brushBlock;
+
+// The pixels [x, stop) of a row, those of one anchor at a time.
+void paintRow(const BrushInput& in, int x, int stop, int y, bool keepOthers, ColourRows& out) {
   const uint16_t* index = in.index.row(y);
-  for (int x = 0; x < in.index.width;) {
+  while (x < stop) {
     int end = x + 1;
-    while (end < in.index.width && index[end] == index[x]) ++end;
+    while (end < stop && index[end] == index[x]) ++end;
     const bool known = index[x] > 0 && index[x] <= in.anchors.size();
     if (known && canPaintSeedRow(in, in.anchors[index[x] - 1]))
       paintSeedRow(in, in.anchors[index[x] - 1], x, end, y, out);
@@ -87,11 +94,13 @@ void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
   if (params.diagnostics)
     for (Floats* plane : {&result.angle, &result.repeat}) fit(*plane, tone);
   parallelRows(tone.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y) {
-      ColourRows out{result.r.row(y), result.g.row(y), result.b.row(y), result.a.row(y)};
-      paintRow(in, y, keepOthers, out);
-      if (params.diagnostics) writeDiagnostics(in, y, keepOthers, result);
-    }
+    for (int x = 0; x < tone.width; x += columnWidth)
+      for (int y = first; y < end; ++y) {
+        ColourRows out{result.r.row(y), result.g.row(y), result.b.row(y), result.a.row(y)};
+        paintRow(in, x, std::min(x + columnWidth, tone.width), y, keepOthers, out);
+      }
+    for (int y = first; params.diagnostics && y < end; ++y)
+      writeDiagnostics(in, y, keepOthers, result);
   });
 }
 

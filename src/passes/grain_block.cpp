@@ -76,6 +76,13 @@ void findParts(const BrushInput& in, const BrushAnchor& anchor, int count, const
   }
 }
 
+// Of the strokes in a plane, the share along its first axis.
+inline float shareOfFirst(float first, float second) {
+  const float larger = first > second ? first : second;
+  const float one = excessShare(first, larger), other = excessShare(second, larger);
+  return one / (one + other);
+}
+
 // How much the surface faces each axis; where no normal is known, by its positions.
 KAGEFUDE_CLONES
 void findFaces(const ObjectAxes& object, int count, const BrushBlock& block, GrainTaps& taps) {
@@ -102,123 +109,108 @@ void findFaces(const ObjectAxes& object, int count, const BrushBlock& block, Gra
   }
 }
 
-// In the plane that faces axis k, the share of strokes along axis k + 1 (the rest: k + 2).
-KAGEFUDE_CLONES
-void findDirections(const float* __restrict first, const float* __restrict second, int count,
-                    float* __restrict alongFirst) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) {
-    const float larger = first[i] > second[i] ? first[i] : second[i];
-    const float one = excessShare(first[i], larger), other = excessShare(second[i], larger);
-    alongFirst[i] = one / (one + other);
-  }
-}
-
 /// What turns a block's places into places on the grain, for one octave.
 struct GrainUnits {
   float u = 0, across = 0, shift = 0, share = 1;
 };
 
-// Gains, the number of patterns, and the weightiest tap of each pixel.
+// Weights of the six patterns: the plane that faces axis k with strokes along either of its axes.
 KAGEFUDE_CLONES
-void listFirstTaps(const GrainUnits& units, float octaves, float keep, int count,
-                   const BrushBlock& block, GrainTaps& taps) {
+void weighPatterns(const Parts& parts, float octaves, float keep, int count, GrainTaps& taps) {
+  const float *__restrict pa = parts.along[0], *__restrict pb = parts.along[1],
+                          *__restrict pc = parts.along[2];
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const float fa = taps.faces[0][i], fb = taps.faces[1][i], fc = taps.faces[2][i];
-    const float da = taps.alongFirst[0][i], db = taps.alongFirst[1][i], dc = taps.alongFirst[2][i];
+    const float da = shareOfFirst(pb[i], pc[i]), db = shareOfFirst(pc[i], pa[i]),
+                dc = shareOfFirst(pa[i], pb[i]);
     const float ra = 1.0f - da, rb = 1.0f - db, rc = 1.0f - dc;
-    const float sum = fa + fb + fc;
     const float squares = fa * fa * (da * da + ra * ra) + fb * fb * (db * db + rb * rb) +
                           fc * fc * (dc * dc + rc * rc);
-    const float kept = 1.0f / std::sqrt(squares * octaves);
-    const float gain = keep > 0.0f ? kept : 1.0f / sum;
-    const int inA = (da > 0.0f ? 1 : 0) + (ra > 0.0f ? 1 : 0),
-              inB = (db > 0.0f ? 1 : 0) + (rb > 0.0f ? 1 : 0),
-              inC = (dc > 0.0f ? 1 : 0) + (rc > 0.0f ? 1 : 0);
-    taps.gain[i] = gain;
-    taps.patterns[i] = (fa > 0.0f ? inA : 0) + (fb > 0.0f ? inB : 0) + (fc > 0.0f ? inC : 0);
-    // The plane's two axes, and which of them the strokes run along.
-    const bool onA = fa >= fb && fa >= fc, onB = !onA && fb >= fc;
-    const float share = onA ? da : (onB ? db : dc);
-    const bool first = share >= 0.5f;
-    const float face = onA ? fa : (onB ? fb : fc);
-    const float* __restrict p0 = block.place[0], * __restrict p1 = block.place[1],
-                 * __restrict p2 = block.place[2];
-    const float *__restrict x0 = block.placeAcross[0], *__restrict x1 = block.placeAcross[1],
-                            *__restrict x2 = block.placeAcross[2];
-    const float *__restrict y0 = block.placeDown[0], *__restrict y1 = block.placeDown[1],
-                            *__restrict y2 = block.placeDown[2];
-    const float pf = onA ? p1[i] : (onB ? p2[i] : p0[i]), ps = onA ? p2[i] : (onB ? p0[i] : p1[i]);
-    const float xf = onA ? x1[i] : (onB ? x2[i] : x0[i]), xs = onA ? x2[i] : (onB ? x0[i] : x1[i]);
-    const float yf = onA ? y1[i] : (onB ? y2[i] : y0[i]), ys = onA ? y2[i] : (onB ? y0[i] : y1[i]);
-    const float of = onA ? axisOffset[1] : (onB ? axisOffset[2] : axisOffset[0]);
-    const float os = onA ? axisOffset[2] : (onB ? axisOffset[0] : axisOffset[1]);
-    const float ok = onA ? axisOffset[0] : (onB ? axisOffset[1] : axisOffset[2]);
-    taps.u[i] = (first ? pf : ps) * units.u + ((first ? of : os) + units.shift);
-    taps.across[i] = (first ? ps : pf) * units.across + ok;
-    taps.ux[i] = (first ? xf : xs) * units.u;
-    taps.uy[i] = (first ? yf : ys) * units.u;
-    taps.vx[i] = (first ? xs : xf) * units.across;
-    taps.vy[i] = (first ? ys : yf) * units.across;
-    taps.weight[i] = face * (first ? share : 1.0f - share) * gain * units.share;
+    const float divisor = keep > 0.0f ? std::sqrt(squares * octaves) : fa + fb + fc;
+    const float gain = 1.0f / divisor;
+    const float ga = fa * gain, gb = fb * gain, gc = fc * gain;
+    const float a0 = ga * da, a1 = ga * ra, b0 = gb * db, b1 = gb * rb, c0 = gc * dc, c1 = gc * rc;
+    taps.share[0][0][i] = a0;
+    taps.share[0][1][i] = a1;
+    taps.share[1][0][i] = b0;
+    taps.share[1][1][i] = b1;
+    taps.share[2][0][i] = c0;
+    taps.share[2][1][i] = c1;
+    taps.patterns[i] = (a0 > 0.0f ? 1 : 0) | (a1 > 0.0f ? 2 : 0) | (b0 > 0.0f ? 4 : 0) |
+                       (b1 > 0.0f ? 8 : 0) | (c0 > 0.0f ? 16 : 0) | (c1 > 0.0f ? 32 : 0);
   }
 }
 
-// One more pattern of a pixel: strokes along axis i, across axis j, in the plane facing axis k.
-void addTap(const BrushBlock& block, const GrainUnits& units, int pixel, int i, int j, int k,
-            float weight, GrainTaps& taps) {
-  const int n = taps.count++;
-  taps.pixel[n] = pixel;
-  taps.u[n] = block.place[i][pixel] * units.u + (axisOffset[i] + units.shift);
-  taps.across[n] = block.place[j][pixel] * units.across + axisOffset[k];
-  taps.ux[n] = block.placeAcross[i][pixel] * units.u;
-  taps.uy[n] = block.placeDown[i][pixel] * units.u;
-  taps.vx[n] = block.placeAcross[j][pixel] * units.across;
-  taps.vy[n] = block.placeDown[j][pixel] * units.across;
-  taps.weight[n] = weight * units.share;
+// One pattern of a group of pixels: strokes along axis i, across axis j, in the plane facing axis
+// k.
+KAGEFUDE_CLONES
+void fillTaps(const BrushBlock& block, const GrainUnits& units, int pixel, int i, int j, int k,
+              const float* __restrict share, GrainTaps& taps) {
+  const int n = taps.count;
+  const float shift = axisOffset[i] + units.shift, shiftAcross = axisOffset[k];
+  const float* __restrict placeI = block.place[i] + pixel, * __restrict placeJ =
+                                                               block.place[j] + pixel;
+  const float* __restrict acrossI = block.placeAcross[i] + pixel, * __restrict acrossJ =
+                                                                      block.placeAcross[j] + pixel;
+  const float* __restrict downI = block.placeDown[i] + pixel, * __restrict downJ =
+                                                                  block.placeDown[j] + pixel;
+#pragma GCC ivdep
+  for (int l = 0; l < grainLanes; ++l) {
+    taps.u[n + l] = placeI[l] * units.u + shift;
+    taps.across[n + l] = placeJ[l] * units.across + shiftAcross;
+    taps.ux[n + l] = acrossI[l] * units.u;
+    taps.uy[n + l] = downI[l] * units.u;
+    taps.vx[n + l] = acrossJ[l] * units.across;
+    taps.vy[n + l] = downJ[l] * units.across;
+    taps.weight[n + l] = share[l] * units.share;
+  }
 }
 
-// All patterns of a pixel but, with `skipFirst`, the weightiest.
-void addTaps(const BrushBlock& block, const GrainUnits& units, int pixel, bool skipFirst,
-             GrainTaps& taps) {
-  const float faces[3] = {taps.faces[0][pixel], taps.faces[1][pixel], taps.faces[2][pixel]};
-  const int plane = faces[0] >= faces[1] && faces[0] >= faces[2] ? 0 : faces[1] >= faces[2] ? 1 : 2;
+// All patterns of a group of pixels.
+void addTaps(const BrushBlock& block, const GrainUnits& units, int pixel, GrainTaps& taps) {
+  const int patterns = bitsOf(taps.patterns + pixel);
+  for (int k = 0; k < 3; ++k)
+    for (int side = 0; side < 2; ++side) {
+      if (!(patterns >> (2 * k + side) & 1)) continue;
+      fillTaps(block, units, pixel, (k + 1 + side) % 3, (k + 2 - side) % 3, k,
+               taps.share[k][side] + pixel, taps);
+      taps.pixel[taps.count / grainLanes] = pixel;
+      taps.count += grainLanes;
+    }
+}
+
+// Makes the last group whole, with pixels that no pattern touches.
+void padGroup(int count, BrushBlock& block, GrainTaps& taps) {
+  const int rest = (grainLanes - count % grainLanes) % grainLanes;
   for (int k = 0; k < 3; ++k) {
-    if (!(faces[k] > 0.0f)) continue;
-    const int axis[2] = {(k + 1) % 3, (k + 2) % 3};
-    const float share[2] = {taps.alongFirst[k][pixel], 1.0f - taps.alongFirst[k][pixel]};
-    const int weightiest = share[0] >= 0.5f ? 0 : 1;
-    for (int side = 0; side < 2; ++side)
-      if (share[side] > 0.0f && !(skipFirst && k == plane && side == weightiest))
-        addTap(block, units, pixel, axis[side], axis[1 - side], k,
-               faces[k] * share[side] * taps.gain[pixel], taps);
+    for (float* row : {block.place[k], block.placeAcross[k], block.placeDown[k], taps.share[k][0],
+                       taps.share[k][1]})
+      std::fill_n(row + count, rest, 0.0f);
   }
+  std::fill_n(taps.patterns + count, rest, 0);
 }
 
 }  // namespace
 
 void listGrainTaps(const BrushInput& in, const BrushAnchor& anchor, float aspect, int count,
-                   const BrushBlock& block, GrainTaps& taps) {
+                   BrushBlock& block, GrainTaps& taps) {
   Parts parts;
   findParts(in, anchor, count, block, parts);
   findFaces(anchor.object, count, block, taps);
-  for (int k = 0; k < 3; ++k)
-    findDirections(parts.along[(k + 1) % 3], parts.along[(k + 2) % 3], count, taps.alongFirst[k]);
   const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
   const float finer = 1.0f - anchor.coarser,
               squares = finer * finer + anchor.coarser * anchor.coarser;
   const GrainUnits fine{perUnit, perUnit * aspect, anchor.shift, finer};
   const GrainUnits coarse{0.5f * perUnit, 0.5f * perUnit * aspect, anchor.coarserShift,
                           anchor.coarser};
-  const GrainUnits& first = finer > 0.0f ? fine : coarse;
   const bool keep = in.params.crossFade == BrushParams::CrossFade::variance;
-  listFirstTaps(first, squares, keep ? 1.0f : 0.0f, count, block, taps);
-  taps.pixels = taps.count = count;
-  const bool both = finer > 0.0f && anchor.coarser > 0.0f;
-  for (int i = 0; i < count; ++i) {
-    if (taps.patterns[i] > 1) addTaps(block, first, i, true, taps);
-    if (both) addTaps(block, coarse, i, false, taps);
+  weighPatterns(parts, squares, keep ? 1.0f : 0.0f, count, taps);
+  padGroup(count, block, taps);
+  taps.count = 0;
+  for (int pixel = 0; pixel < count; pixel += grainLanes) {
+    if (finer > 0.0f) addTaps(block, fine, pixel, taps);
+    if (anchor.coarser > 0.0f) addTaps(block, coarse, pixel, taps);
   }
 }
 

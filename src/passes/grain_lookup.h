@@ -1,7 +1,6 @@
 #pragma once
 
 #include <bit>
-#include <cstring>
 
 #include "passes/strip_lookup.h"
 
@@ -31,15 +30,8 @@ struct GrainPlace {
 inline GrainPlace grainPlace(float u, float halfAcross, int width, int height, int offset) {
   const RowPlace row = rowPlace(std::fabs(2.0f * halfAcross - 1.0f), height);
   const ColumnPlace column = columnPlace(u, width);
-  return {offset + row.upper * (width + 1) + column.left, column.fraction, row.fraction};
-}
-
-/// Four texels round a place as bytes: here, right, below and below right.
-inline uint32_t fourTexels(const uint8_t* pool, int texel, int stride) {
-  uint16_t upper, lower;
-  std::memcpy(&upper, pool + texel, 2);
-  std::memcpy(&lower, pool + texel + stride, 2);
-  return upper | static_cast<uint32_t>(lower) << 16;
+  return {offset + grainTexel(column.left, row.upper, (width + 3) >> 2), column.fraction,
+          row.fraction};
 }
 
 /// The grain between four packed texels.
@@ -56,7 +48,7 @@ inline float grainAt(const StripGrain& grain, size_t level, float u, float w) {
   const StripGrain::Level& l = grain.levels[level];
   const GrainPlace place =
       grainPlace(fractionOf(u), fractionOf(0.5f * w), l.width, l.height, l.offset);
-  return grainBetween(fourTexels(grain.pool.row(0), place.texel, l.stride()), place.fx, place.fy);
+  return grainBetween(grain.pool.row(0)[place.texel], place.fx, place.fy);
 }
 
 /// As log2Of within 2e-4, without a division.
@@ -68,30 +60,61 @@ inline float roughLog2(float value) {
   return exponent + m * (1.4384552f + m * (-0.6778900f + m * (0.3230900f + m * -0.0836552f)));
 }
 
-/// As probeEllipse with grainTolerance, but for roughLog2; all but the probes' step is found from
-/// squares.
-inline void grainEllipse(float ux, float vx, float uy, float vy, float width, float height,
-                         float maxProbes, float& probes, float& lod, float& stepU, float& stepV) {
+/// The ellipse that the unit pixel covers on the grain, in texels; lengths are squared.
+struct GrainEllipse {
+  float length, shortest;  ///< of the long axis, and of the short one, at least bilinearWidth
+  float a, b, c, spread;   ///< for the long axis's direction
+};
+
+/// From the footprint vectors (ux, vx), (uy, vy) in texels.
+inline GrainEllipse grainEllipse(float ux, float vx, float uy, float vy) {
   constexpr float least = bilinearWidth * bilinearWidth;
-  constexpr float reach = 1.0f / ((1.0f + grainTolerance) * (1.0f + grainTolerance));
   const float a = ux * ux + uy * uy, b = ux * vx + uy * vy, c = vx * vx + vy * vy;
   const float spread = std::sqrt((a - c) * (a - c) + 4.0f * b * b);
-  const float longest = 0.5f * (a + c + spread);  // squared, as all lengths here
+  const float longest = 0.5f * (a + c + spread);
   // A small ellipse, and NaN, counts as the least circle, which is one probe of level 0. (A guard
   // against each constant would be threaded into branches, and the loop would not vectorise.)
   const bool large = longest > least;
   const float length = large ? longest : least;
   const float area = ux * vy - uy * vx;
   const float narrow = area * area / length;
-  const float shortest = narrow > least ? narrow : least;
-  const float wanted = std::ceil(std::sqrt(length / shortest) - grainTolerance);
+  return {length, narrow > least ? narrow : least, a, b, c, spread};
+}
+
+/// Whether one probe of level 0 alone does, found without roots and divisions: the ellipse's
+/// squared lengths are the eigenvalues of its form, and its polynomial's signs bound them. A little
+/// narrower than grainProbes and levelShare have it, so that roundings cannot matter.
+inline bool needsOneTexel(float ux, float vx, float uy, float vy) {
+  constexpr float longest = 6.1f;   // of 6.125: (1 + grainTolerance) bilinearWidth, squared
+  constexpr float shortest = 2.9f;  // of 3.03: 2 to the power of 2 (0.5 + (1 - levelFade) / 2)
+  const float trace = ux * ux + uy * uy + (vx * vx + vy * vy);
+  const float area = ux * vy - uy * vx;
+  const float determinant = area * area;
+  const float atLongest = longest * longest - trace * longest + determinant;
+  const float atShortest = shortest * shortest - trace * shortest + determinant;
+  const bool isShort = (trace <= 2.0f * longest) & (atLongest >= 0.0f);
+  const bool isNarrow = (trace <= 2.0f * shortest) | (atShortest <= 0.0f);
+  return isShort & isNarrow;
+}
+
+/// Level of a probe that covers `share` of the long axis, squared.
+inline float grainLod(float share, float shortest) {
+  constexpr float reach = 1.0f / ((1.0f + grainTolerance) * (1.0f + grainTolerance));
+  const float covered = share * reach > shortest ? share * reach : shortest;
+  return 0.5f * roughLog2(covered) - 0.5f;
+}
+
+/// As probeEllipse with grainTolerance, but for roughLog2; all but the probes' step is found from
+/// squares.
+inline void grainProbes(const GrainEllipse& e, float width, float height, float maxProbes,
+                        float& probes, float& lod, float& stepU, float& stepV) {
+  const float wanted = std::ceil(std::sqrt(e.length / e.shortest) - grainTolerance);
   probes = wanted < maxProbes ? wanted : maxProbes;
   const float inverse = 1.0f / probes;
-  const float share = length * inverse * inverse;
-  const float covered = share * reach > shortest ? share * reach : shortest;
-  lod = 0.5f * roughLog2(covered) - 0.5f;
-  const float du = a >= c ? 0.5f * (a - c + spread) : b;
-  const float dv = a >= c ? b : 0.5f * (c - a + spread);
+  const float share = e.length * inverse * inverse;
+  lod = grainLod(share, e.shortest);
+  const float du = e.a >= e.c ? 0.5f * (e.a - e.c + e.spread) : e.b;
+  const float dv = e.a >= e.c ? e.b : 0.5f * (e.c - e.a + e.spread);
   const float step = std::sqrt(share / (du * du + dv * dv));
   stepU = probes > 1.0f ? du * step * (1.0f / width) : 0.0f;
   stepV = probes > 1.0f ? dv * step * (1.0f / height) : 0.0f;
@@ -102,8 +125,8 @@ inline StripProbe grainProbe(const StripGrain& grain, const Footprint& f, int ma
               h = static_cast<float>(grain.levels.front().height);
   StripProbe probe;
   float probes;
-  grainEllipse(f.ux * w, f.vx * h, f.uy * w, f.vy * h, w, h, static_cast<float>(maxProbes), probes,
-               probe.lod, probe.stepU, probe.stepV);
+  grainProbes(grainEllipse(f.ux * w, f.vx * h, f.uy * w, f.vy * h), w, h,
+              static_cast<float>(maxProbes), probes, probe.lod, probe.stepU, probe.stepV);
   probe.count = static_cast<int>(probes);
   return probe;
 }

@@ -14,7 +14,7 @@ struct LevelSizes {
   static constexpr int most = 16;
   int width[most], height[most], offset[most];
   int last = 0;
-  const uint8_t* pool = nullptr;
+  const uint32_t* pool = nullptr;
 
   explicit LevelSizes(const StripGrain& grain)
       : last(static_cast<int>(grain.levels.size()) - 1), pool(grain.pool.row(0)) {
@@ -27,36 +27,60 @@ struct LevelSizes {
   }
 };
 
+/// Level below a lod, and the share of the one above it.
+struct LevelMix {
+  int level;
+  float coarser;
+};
+
+inline LevelMix mixAt(float lod, float most) {
+  const float between = lod < most ? lod : most;
+  const int fine = static_cast<int>(between);
+  const float share = levelShare(between - static_cast<float>(fine));
+  return {fine + (share >= 1.0f ? 1 : 0), share >= 1.0f ? 0.0f : share};
+}
+
+// One texel's probe for every tap, and which taps need more.
 KAGEFUDE_CLONES
-void splitTaps(float w, float h, float maxProbes, int lastLevel, GrainTaps& taps) {
-  const float most = static_cast<float>(lastLevel);
-  float* __restrict coarser = taps.coarser, * __restrict stepU = taps.stepU, * __restrict stepV = taps.stepV;
-  int* __restrict probes = taps.probes, * __restrict level = taps.level;
+void measureTaps(float w, float h, GrainTaps& taps) {
+  float* __restrict coarser = taps.coarser;
+  int* __restrict larger = taps.larger, * __restrict level = taps.level;
   const int count = taps.count;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
-    float n, lod, du, dv;
-    grainEllipse(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h, w, h, maxProbes, n,
-                 lod, du, dv);
-    const float between = lod < most ? lod : most;
-    const int fine = static_cast<int>(between);
-    const float share = levelShare(between - static_cast<float>(fine));
-    probes[i] = static_cast<int>(n);
-    level[i] = fine + (share >= 1.0f ? 1 : 0);
-    coarser[i] = share >= 1.0f ? 0.0f : share;
-    stepU[i] = du;
-    stepV[i] = dv;
+    const bool one = needsOneTexel(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h);
+    larger[i] = one ? 0 : 1;
+    level[i] = 0;
+    coarser[i] = 0.0f;
   }
 }
 
-/// Lookups of single levels, at most a few per tap.
-struct Lookups {
-  static constexpr int most = 512;
-  int count = 0;
-  alignas(64) float u[most], across[most], weight[most], value[most];
-  alignas(64) int level[most];
-  int tap[most];
-};
+// Levels and probes of a group of taps: places become those of the first probes, weights those of
+// each. Roots and divisions that most groups do without.
+KAGEFUDE_CLONES
+void splitTaps(float w, float h, float maxProbes, int lastLevel, int first, GrainTaps& taps) {
+  const float most = static_cast<float>(lastLevel);
+#pragma GCC ivdep
+  for (int i = first; i < first + grainLanes; ++i) {
+    const GrainEllipse e =
+        grainEllipse(taps.ux[i] * w, taps.vx[i] * h, taps.uy[i] * w, taps.vy[i] * h);
+    float n, lod, du, dv;
+    grainProbes(e, w, h, maxProbes, n, lod, du, dv);
+    const LevelMix mix = mixAt(lod, most);
+    const float back = 0.5f * (n - 1.0f);
+    taps.level[i] = mix.level;
+    taps.coarser[i] = mix.coarser;
+    taps.probes[i] = static_cast<int>(n);
+    taps.stepU[i] = du;
+    taps.stepV[i] = dv;
+    // The footprint is done with: it keeps the middle.
+    taps.ux[i] = taps.u[i];
+    taps.vx[i] = taps.across[i];
+    taps.u[i] -= back * du;
+    taps.across[i] -= back * dv;
+    taps.weight[i] *= 1.0f / n;
+  }
+}
 
 /// Loops of their own, or the compiler keeps branches and plain registers.
 KAGEFUDE_CLONES
@@ -65,19 +89,18 @@ void wrapPlaces(const float* __restrict places, float scale, int count, float* _
   for (int i = 0; i < count; ++i) wrapped[i] = fractionOf(places[i] * scale);
 }
 
-/// Where lookups lie, and the texels found there.
-struct Found {
-  alignas(64) int texel[Lookups::most];
-  alignas(64) float fx[Lookups::most], fy[Lookups::most];
-  alignas(64) uint32_t four[Lookups::most];
+/// Where lookups are written to.
+struct Places {
+  int* texel;
+  float *fx, *fy;
 };
 
 KAGEFUDE_CLONES
 void placeInLevels(const LevelSizes& sizes, const float* __restrict u,
                    const float* __restrict across, const int* __restrict level, int count,
-                   Found& found) {
-  int* __restrict texel = found.texel;
-  float* __restrict fx = found.fx, * __restrict fy = found.fy;
+                   const Places& places) {
+  int* __restrict texel = places.texel;
+  float* __restrict fx = places.fx, * __restrict fy = places.fy;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const int l = level[i];
@@ -91,9 +114,9 @@ void placeInLevels(const LevelSizes& sizes, const float* __restrict u,
 
 KAGEFUDE_CLONES
 void placeInLevel(int width, int height, int offset, const float* __restrict u,
-                  const float* __restrict across, int count, Found& found) {
-  int* __restrict texel = found.texel;
-  float* __restrict fx = found.fx, * __restrict fy = found.fy;
+                  const float* __restrict across, int count, const Places& places) {
+  int* __restrict texel = places.texel;
+  float* __restrict fx = places.fx, * __restrict fy = places.fy;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const GrainPlace place = grainPlace(u[i], across[i], width, height, offset);
@@ -103,20 +126,11 @@ void placeInLevel(int width, int height, int offset, const float* __restrict u,
   }
 }
 
-// One by one: gathering in vector registers costs more than it saves.
-void fetch(const uint8_t* pool, int stride, int count, Found& found) {
-  for (int i = 0; i < count; ++i) found.four[i] = fourTexels(pool, found.texel[i], stride);
-}
-
-void fetch(const uint8_t* pool, const int* widths, const int* level, int count, Found& found) {
-  for (int i = 0; i < count; ++i)
-    found.four[i] = fourTexels(pool, found.texel[i], widths[level[i]] + 1);
-}
-
 KAGEFUDE_CLONES
-void interpolate(const Found& found, int count, float* __restrict value) {
+void interpolate(const uint32_t* __restrict four, const float* __restrict fx,
+                 const float* __restrict fy, int count, float* __restrict value) {
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) value[i] = grainBetween(found.four[i], found.fx[i], found.fy[i]);
+  for (int i = 0; i < count; ++i) value[i] = grainBetween(four[i], fx[i], fy[i]);
 }
 
 KAGEFUDE_CLONES
@@ -127,142 +141,137 @@ bool allEqual(const int* __restrict level, int count) {
 }
 
 // Neighbours mostly lie in the same level: then its sizes need not be looked up.
-void readLevels(const LevelSizes& sizes, const float* u, const float* across, const int* level,
-                int count, float* value) {
-  alignas(64) float wrappedU[Lookups::most], wrappedAcross[Lookups::most];
+void placeLookups(const LevelSizes& sizes, const float* u, const float* across, const int* level,
+                  int count, const Places& places) {
+  alignas(64) float wrappedU[GrainTaps::most], wrappedAcross[GrainTaps::most];
   wrapPlaces(u, 1.0f, count, wrappedU);
   wrapPlaces(across, 0.5f, count, wrappedAcross);
-  Found found;
   if (count > 0 && allEqual(level, count)) {
     const int l = level[0];
     placeInLevel(sizes.width[l], sizes.height[l], sizes.offset[l], wrappedU, wrappedAcross, count,
-                 found);
-    fetch(sizes.pool, sizes.width[l] + 1, count, found);
+                 places);
   } else {
-    placeInLevels(sizes, wrappedU, wrappedAcross, level, count, found);
-    fetch(sizes.pool, sizes.width, level, count, found);
-  }
-  interpolate(found, count, value);
-}
-
-// First probe of every tap; others follow from the list.
-KAGEFUDE_CLONES
-void placeFirst(const GrainTaps& taps, int first, int count, float* __restrict u,
-                float* __restrict across) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) {
-    const float back = 0.5f * static_cast<float>(taps.probes[first + i] - 1);
-    u[i] = taps.u[first + i] - back * taps.stepU[first + i];
-    across[i] = taps.across[first + i] - back * taps.stepV[first + i];
+    placeInLevels(sizes, wrappedU, wrappedAcross, level, count, places);
   }
 }
 
-KAGEFUDE_CLONES
-void mixLevels(const float* __restrict coarse, const float* __restrict coarser, int count,
-               float* __restrict value) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) value[i] += (coarse[i] - value[i]) * coarser[i];
+// Texels one by one: gathering in vector registers costs more than it saves.
+void readPlaces(const uint32_t* pool, const Places& places, int count, float* value) {
+  alignas(64) uint32_t four[GrainTaps::most];
+  for (int i = 0; i < count; ++i) four[i] = pool[places.texel[i]];
+  interpolate(four, places.fx, places.fy, count, value);
 }
 
-KAGEFUDE_CLONES
-void nextLevels(const int* __restrict level, int last, int count, int* __restrict next) {
-#pragma GCC ivdep
-  for (int i = 0; i < count; ++i) next[i] = level[i] < last ? level[i] + 1 : last;
-}
-
-KAGEFUDE_CLONES
-bool anyAbove(const float* __restrict values, int count) {
-  int above = 0;
-  for (int i = 0; i < count; ++i) above |= values[i] > 0.0f ? 1 : 0;
-  return above != 0;
-}
-
-KAGEFUDE_CLONES
-int largestOf(const int* __restrict values, int count) {
-  int largest = 0;
-  for (int i = 0; i < count; ++i) largest = values[i] > largest ? values[i] : largest;
-  return largest;
-}
-
-class GrainReader {
- public:
-  GrainReader(const StripGrain& grain, GrainTaps& taps) : sizes_(grain), taps_(taps) {}
-
-  int lastLevel() const { return sizes_.last; }
-
-  void read() {
-    for (int first = 0; first < taps_.count; first += brushBlock)
-      readFirst(first, std::min(first + brushBlock, taps_.count));
-    if (largestOf(taps_.probes, taps_.count) < 2) return;
-    for (int i = 0; i < taps_.count; ++i)
-      for (int probe = 1; probe < taps_.probes[i]; ++probe) addProbe(i, probe);
-    flush();
-  }
-
- private:
-  void readFirst(int first, int end) {
-    alignas(64) float u[brushBlock], across[brushBlock], coarse[brushBlock];
-    alignas(64) int next[brushBlock];
-    const int count = end - first;
-    placeFirst(taps_, first, count, u, across);
-    readLevels(sizes_, u, across, taps_.level + first, count, taps_.value + first);
-    if (!anyAbove(taps_.coarser + first, count)) return;
-    nextLevels(taps_.level + first, sizes_.last, count, next);
-    readLevels(sizes_, u, across, next, count, coarse);
-    mixLevels(coarse, taps_.coarser + first, count, taps_.value + first);
-  }
-
-  void addProbe(int tap, int probe) {
-    const float offset =
-        static_cast<float>(probe) - 0.5f * static_cast<float>(taps_.probes[tap] - 1);
-    const float u = taps_.u[tap] + offset * taps_.stepU[tap];
-    const float across = taps_.across[tap] + offset * taps_.stepV[tap];
-    const float coarser = taps_.coarser[tap];
-    add(tap, u, across, taps_.level[tap], 1.0f - coarser);
-    if (coarser > 0.0f) add(tap, u, across, taps_.level[tap] + 1, coarser);
-  }
-
-  void add(int tap, float u, float across, int level, float weight) {
-    if (list_->count == Lookups::most) flush();
-    const int n = list_->count++;
-    list_->u[n] = u;
-    list_->across[n] = across;
-    list_->level[n] = level;
-    list_->weight[n] = weight;
-    list_->tap[n] = tap;
-  }
-
-  void flush() {
-    readLevels(sizes_, list_->u, list_->across, list_->level, list_->count, list_->value);
-    for (int i = 0; i < list_->count; ++i)
-      taps_.value[list_->tap[i]] += list_->value[i] * list_->weight[i];
-    list_->count = 0;
-  }
-
-  LevelSizes sizes_;
-  GrainTaps& taps_;
-  std::unique_ptr<Lookups> list_ = std::make_unique_for_overwrite<Lookups>();
+/// Where a group of lookups is written to.
+struct LookupRows {
+  float *u, *across, *weight;
+  int* level;
 };
 
+// One more probe of a group, or the same in the next level.
 KAGEFUDE_CLONES
-void sumFirst(const GrainTaps& taps, float* __restrict sums) {
-  const int pixels = taps.pixels;
+void fillLookups(const GrainTaps& taps, int first, int probe, int levelsUp, int last,
+                 const LookupRows& list) {
+  const float steps = static_cast<float>(probe), up = static_cast<float>(levelsUp);
 #pragma GCC ivdep
-  for (int i = 0; i < pixels; ++i)
-    sums[i] = taps.value[i] * (taps.weight[i] / static_cast<float>(taps.probes[i]));
+  for (int l = 0; l < grainLanes; ++l) {
+    const float coarser = taps.coarser[first + l];
+    const float share = up > 0.0f ? coarser : 1.0f - coarser;
+    const float weight = taps.weight[first + l] * share;
+    const int level = taps.level[first + l] + levelsUp;
+    const float offset = steps - 0.5f * static_cast<float>(taps.probes[first + l] - 1);
+    list.u[l] = taps.ux[first + l] + offset * taps.stepU[first + l];
+    list.across[l] = taps.vx[first + l] + offset * taps.stepV[first + l];
+    list.level[l] = level < last ? level : last;
+    list.weight[l] = probe < taps.probes[first + l] ? weight : 0.0f;
+  }
+}
+
+KAGEFUDE_CLONES
+void addGroup(const float* __restrict value, const float* __restrict weight,
+              float* __restrict sums) {
+#pragma GCC ivdep
+  for (int l = 0; l < grainLanes; ++l) sums[l] += value[l] * weight[l];
+}
+
+KAGEFUDE_CLONES
+void addFadingGroup(const float* __restrict value, const float* __restrict weight,
+                    const float* __restrict coarser, float* __restrict sums) {
+#pragma GCC ivdep
+  for (int l = 0; l < grainLanes; ++l) sums[l] += value[l] * (weight[l] * (1.0f - coarser[l]));
 }
 
 }  // namespace
 
-void readGrain(const StripGrain& grain, int maxProbes, GrainTaps& taps, float* sums) {
-  GrainReader reader(grain, taps);
-  const StripGrain::Level& full = grain.levels.front();
-  splitTaps(static_cast<float>(full.width), static_cast<float>(full.height),
-            static_cast<float>(maxProbes), reader.lastLevel(), taps);
-  reader.read();
-  sumFirst(taps, sums);
-  for (int i = taps.pixels; i < taps.count; ++i)
-    sums[taps.pixel[i]] += taps.value[i] * (taps.weight[i] / static_cast<float>(taps.probes[i]));
+/// Lookups of single levels beyond each tap's first, a group at a time.
+struct GrainReader::Lookups {
+  static constexpr int most = 512;
+  int count = 0;
+  alignas(64) float u[most], across[most], weight[most], value[most];
+  alignas(64) float fx[most], fy[most];
+  alignas(64) int level[most], texel[most];
+  int pixel[most / grainLanes];
+};
+
+GrainReader::GrainReader(const StripGrain& grain, int maxProbes)
+    : grain_(grain),
+      maxProbes_(static_cast<float>(maxProbes)),
+      list_(std::make_unique_for_overwrite<Lookups>()) {
+  list_->count = 0;
+}
+
+GrainReader::~GrainReader() = default;
+
+void GrainReader::place(GrainTaps& taps) const {
+  const LevelSizes sizes(grain_);
+  const StripGrain::Level& full = grain_.levels.front();
+  const float w = static_cast<float>(full.width), h = static_cast<float>(full.height);
+  measureTaps(w, h, taps);
+  for (int first = 0; first < taps.count; first += grainLanes)
+    if (bitsOf(taps.larger + first) != 0) splitTaps(w, h, maxProbes_, sizes.last, first, taps);
+  placeLookups(sizes, taps.u, taps.across, taps.level, taps.count, {taps.texel, taps.fx, taps.fy});
+  for (int i = 0; i < taps.count; ++i) __builtin_prefetch(sizes.pool + taps.texel[i]);
+}
+
+void GrainReader::read(GrainTaps& taps, float* sums) {
+  std::fill_n(sums, brushBlock, 0.0f);
+  readPlaces(grain_.pool.row(0), {taps.texel, taps.fx, taps.fy}, taps.count, taps.value);
+  for (int first = 0; first < taps.count; first += grainLanes) addFirst(taps, first, sums);
+  flush(sums);
+}
+
+// Sums a group's first probes and lists what else it reads.
+void GrainReader::addFirst(GrainTaps& taps, int first, float* sums) {
+  float* const to = sums + taps.pixel[first / grainLanes];
+  if (bitsOf(taps.larger + first) == 0)
+    return addGroup(taps.value + first, taps.weight + first, to);
+  addFadingGroup(taps.value + first, taps.weight + first, taps.coarser + first, to);
+  const bool fades = bitsOf(taps.coarser + first) != 0;
+  const int* const probes = taps.probes + first;
+  const int largest = *std::max_element(probes, probes + grainLanes);
+  for (int probe = 0; probe < largest; ++probe) {
+    if (probe > 0) add(taps, first, probe, 0, sums);
+    if (fades) add(taps, first, probe, 1, sums);
+  }
+}
+
+void GrainReader::add(const GrainTaps& taps, int first, int probe, int levelsUp, float* sums) {
+  if (list_->count == Lookups::most) flush(sums);
+  const int n = list_->count;
+  list_->pixel[n / grainLanes] = taps.pixel[first / grainLanes];
+  fillLookups(taps, first, probe, levelsUp, static_cast<int>(grain_.levels.size()) - 1,
+              {list_->u + n, list_->across + n, list_->weight + n, list_->level + n});
+  list_->count += grainLanes;
+}
+
+void GrainReader::flush(float* sums) {
+  Lookups& list = *list_;
+  const Places places{list.texel, list.fx, list.fy};
+  placeLookups(LevelSizes(grain_), list.u, list.across, list.level, list.count, places);
+  readPlaces(grain_.pool.row(0), places, list.count, list.value);
+  for (int first = 0; first < list.count; first += grainLanes)
+    addGroup(list.value + first, list.weight + first, sums + list.pixel[first / grainLanes]);
+  list.count = 0;
 }
 
 }  // namespace kagefude

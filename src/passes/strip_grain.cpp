@@ -75,16 +75,20 @@ Floats halved(const Floats& fine) {
   return coarse;
 }
 
-uint8_t toByte(float grain) {
+uint32_t toByte(float grain) {
   const float steps = grain * (1.0f / StripGrain::perStep) + 128.5f;
-  return static_cast<uint8_t>(std::clamp(steps, 1.0f, 255.0f));
+  return static_cast<uint32_t>(std::clamp(steps, 1.0f, 255.0f));
 }
 
-void pack(const Floats& level, uint8_t* texels) {
-  const int width = level.width(), height = level.height();
-  for (int y = 0; y <= height; ++y)
-    for (int x = 0; x <= width; ++x)
-      *texels++ = toByte(level(x < width ? x : 0, std::min(y, height - 1)));
+void pack(const Floats& grain, const StripGrain::Level& level, uint32_t* texels) {
+  std::fill_n(texels, level.texels(), 0u);
+  for (int y = 0; y < level.height; ++y)
+    for (int x = 0; x < level.width; ++x) {
+      const int right = x + 1 < level.width ? x + 1 : 0, below = std::min(y + 1, level.height - 1);
+      texels[grainTexel(x, y, level.tilesAcross())] =
+          toByte(grain(x, y)) | toByte(grain(right, y)) << 8 | toByte(grain(x, below)) << 16 |
+          toByte(grain(right, below)) << 24;
+    }
 }
 
 void packChain(Floats grain, StripGrain& result) {
@@ -95,11 +99,11 @@ void packChain(Floats grain, StripGrain& result) {
   int texels = 0;
   for (const Floats& level : chain) {
     result.levels.push_back({level.width(), level.height(), texels});
-    texels += (level.width() + 1) * (level.height() + 1);
+    texels += result.levels.back().texels();
   }
-  result.pool = Plane<uint8_t>(texels, 1);
+  result.pool = Plane<uint32_t>(texels, 1);
   for (size_t i = 0; i < chain.size(); ++i)
-    pack(chain[i], result.pool.row(0) + result.levels[i].offset);
+    pack(chain[i], result.levels[i], result.pool.row(0) + result.levels[i].offset);
 }
 
 /// Share of the grain's texels below each border between two columns of the colours.

@@ -25,18 +25,26 @@ struct StripGrain {
     int width = 0, height = 0;
     int offset = 0;  ///< of its first texel in `pool`
 
-    int stride() const { return width + 1; }
+    int tilesAcross() const { return (width + 3) / 4; }
+    int texels() const { return tilesAcross() * ((height + 3) / 4) * 16; }
   };
   std::vector<Level> levels;  ///< full size first, 1 x 1 last, box-filtered
-  /// Bytes, 128 is 0. Behind each row its first texel, behind the last row that row again, so that
-  /// the four texels of a bilinear lookup are two reads of two bytes.
-  Plane<uint8_t> pool;
+  /// Each texel with its neighbours, as a bilinear lookup mixes them: four bytes, from the lowest
+  /// on here, right (round the strip's end), below (the last row's is itself) and below right; 128
+  /// is 0. In tiles of 4 x 4 texels, one line of the cache each, see grainTexel: a row of pixels
+  /// crosses the grain in any direction.
+  Plane<uint32_t> pool;
   /// Rows are tones, brightest first; then the same at half, a quarter ... of the rows. The first
   /// level has a power of two of them, so that a level's rows and place follow from its number.
   int toneRows = 1;
   int lastToneLevel = 0;
   Plane<Rgba> colours;
 };
+
+/// Place in a level's part of the pool.
+inline int grainTexel(int x, int y, int tilesAcross) {
+  return ((y >> 2) * tilesAcross + (x >> 2)) * 16 + (y & 3) * 4 + (x & 3);
+}
 
 /// First row of a level of tones in `colours`.
 inline int toneLevelRow(int toneRows, int level) { return 2 * (toneRows - (toneRows >> level)); }

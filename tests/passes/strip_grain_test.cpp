@@ -73,7 +73,9 @@ TEST(StripGrain, EveryToneGetsItsRowsMeanAndSpread) {
     }
     for (int i = 0; i < full.width * full.height; i += 7, ++count) {
       const float value =
-          (static_cast<float>(grain.pool.row(0)[i / full.width * full.stride() + i % full.width]) -
+          (static_cast<float>(
+               grain.pool.row(0)[grainTexel(i % full.width, i / full.width, full.tilesAcross())] &
+               255) -
            128.0f) *
           grain.perStep;
       const double c = double(grainColour(grain, tone, value, 0)[0]);
@@ -127,9 +129,11 @@ TEST(StripGrain, EveryLevelKeepsTheMeanNearZero) {
   for (const StripGrain::Level& level : strip.grain.levels) {
     double sum = 0;
     for (int i = 0; i < level.width * level.height; ++i)
-      sum += double(strip.grain.pool.row(
-                 0)[level.offset + i / level.width * level.stride() + i % level.width]) -
-             128.0;
+      sum +=
+          double(strip.grain.pool.row(0)[level.offset + grainTexel(i % level.width, i / level.width,
+                                                                   level.tilesAcross())] &
+                 255) -
+          128.0;
     EXPECT_NEAR(sum / (level.width * level.height), 0.0, 0.51);
   }
 }
