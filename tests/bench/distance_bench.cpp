@@ -26,9 +26,17 @@ const LabelledShadow& frame() {
   return made;
 }
 
+/// Roots where a distance was wanted; stretches without any are only looked at.
 KAGEFUDE_CLONES void takeRoots(const uint32_t* squared, int count, float* distance) {
-  for (int i = 0; i < count; ++i)
-    distance[i] = squared[i] == noSite ? -1.0f : std::sqrt(static_cast<float>(squared[i]));
+  constexpr int stretch = 64;
+  for (int first = 0; first < count; first += stretch) {
+    const int end = std::min(first + stretch, count);
+    uint32_t all = noSite;
+    for (int i = first; i < end; ++i) all &= squared[i];
+    if (all == noSite) continue;
+    for (int i = first; i < end; ++i)
+      distance[i] = squared[i] == noSite ? -1.0f : std::sqrt(static_cast<float>(squared[i]));
+  }
 }
 
 /// Distances of the wanted pixels as the peer gives them: the root is part of the work.
