@@ -43,6 +43,7 @@ def render(scene, size, folder):
 
 
 def main(program, folder, *scenes):
+    folder = os.path.abspath(folder)  # Blender saves to absolute paths only
     os.makedirs(folder, exist_ok=True)
     print("| " + " | ".join(TITLES) + " |")
     print("|" + "---|" * len(TITLES), flush=True)
