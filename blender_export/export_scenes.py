@@ -61,7 +61,7 @@ def exact_scene(artist_scene, name):
     scene.name = PREFIX + name
     scene.animation_data_clear()
     scene.timeline_markers.clear()
-    scene.use_nodes = False
+    compat.remove_compositor(scene)
     scene.world = None
     for child in list(scene.collection.children):
         scene.collection.children.unlink(child)
@@ -159,14 +159,12 @@ class Writer:
         render.resolution_x, render.resolution_y = resolution(like)
         render.resolution_percentage = 100
         render.use_stamp_date = render.use_stamp_filename = render.use_stamp_render_time = False
-        self.scene.use_nodes = True
-        self.tree = self.scene.node_tree
-        self.tree.nodes.clear()
-        self.node = self.tree.nodes.new('CompositorNodeOutputFile')
-        self.node.format.file_format = 'OPEN_EXR_MULTILAYER'
-        self.node.format.color_depth = '32'
-        self.node.format.exr_codec = 'ZIP'
-        self.names = []
+        self.tree = compat.compositor_tree(self.scene)
+        self.file = compat.LayerFile(self.tree)
+
+    @property
+    def names(self):
+        return self.file.names
 
     def source(self, scene, layer_name):
         node = self.tree.nodes.new('CompositorNodeRLayers')
@@ -175,13 +173,7 @@ class Writer:
         return node
 
     def add(self, socket, name):
-        if self.names:
-            self.node.layer_slots.new(name)
-        else:
-            # The slot that a new node has; removing it would leak and make Blender end with an error.
-            self.node.layer_slots[0].name = name
-        self.tree.links.new(socket, self.node.inputs[-1])
-        self.names.append(name)
+        self.file.add(socket, name)
 
     def add_pass(self, node, pass_name, name):
         socket = compat.output_socket(node, pass_name)
@@ -193,8 +185,7 @@ class Writer:
         """One channel: the pass itself, or 1 where it is above `threshold`."""
         value = compat.first_channel_of_colour(self.tree, compat.output_socket(node, pass_name))
         if threshold is not None:
-            above = self.tree.nodes.new('CompositorNodeMath')
-            above.operation = 'GREATER_THAN'
+            above = compat.math_node(self.tree, 'GREATER_THAN')
             above.inputs[1].default_value = threshold
             self.tree.links.new(value, above.inputs[0])
             value = above.outputs[0]

@@ -56,7 +56,7 @@ def render(writer, frame, path):
     folder, name = os.path.split(path)
     base = os.path.join(folder, f".{name}.part")
     remove_parts(base)
-    writer.node.base_path = base
+    writer.file.set_path(base)
     writer.scene.frame_set(frame)
     bpy.ops.render.render(scene=writer.scene.name)
     parts = glob.glob(glob.escape(base) + "*")

@@ -6,6 +6,7 @@ All changes made here stay in the memory of the exporting Blender, which never s
 
 import bpy
 
+from . import compat
 from .errors import ExportError, nearest
 
 GEOMETRY = {'MESH', 'CURVE', 'CURVES', 'SURFACE', 'FONT', 'META', 'VOLUME', 'POINTCLOUD'}
@@ -81,7 +82,7 @@ def exported_lights(objects, names):
 
 def casts_shadow(light):
     portal = getattr(getattr(light, "cycles", None), "is_portal", False)
-    return getattr(light, "use_shadow", True) and light.cycles.cast_shadow and not portal
+    return compat.casts_shadow(light) and not portal
 
 
 def refuse_instanced_lights(objects):
