@@ -152,6 +152,18 @@ class LayerFile:
             self.node.directory, self.node.file_name = os.path.split(path)
 
 
+# Animation ------------------------------------------------------------------------------------
+
+def action_curves(action):
+    """The curves of an action, which lie in layers from 5.0; none of None."""
+    if action is None:
+        return []
+    if hasattr(action, "fcurves"):
+        return list(action.fcurves)
+    return [curve for layer in action.layers for strip in layer.strips
+            for bag in strip.channelbags for curve in bag.fcurves]
+
+
 # Anything -------------------------------------------------------------------------------------
 
 def set_if_known(holder, **values):

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import bpy
 from mathutils import Matrix, Vector
 
-from . import vectors
+from . import compat, vectors
 from .export_scenes import PREFIX
+from .light_emission import node_emission
 
 TYPES = {'POINT': "point", 'SPOT': "spot", 'SUN': "sun", 'AREA': "area"}
 
@@ -23,20 +24,27 @@ class LightState:
     half_length: float      # of the longer side of an area, otherwise the radius
     surface_axes: tuple     # of an area, the longer side first; None otherwise
     cone: tuple             # (full angle, blend) of a spot; None otherwise
-    color: tuple
-    energy: float
+    color: tuple            # with that of the light's nodes
+    energy: float           # as it is in this frame: with its nodes' strength, 0 where it is hidden
+    casts_shadow: bool
+    unknown_node: str       # name of a node of the light that could not be followed, or None
     world_from_light: Matrix
 
 
-def read_light(evaluated):
-    """The state of an evaluated light object."""
+def read_light(evaluated, name):
+    """The state of an evaluated light object, called `name` in what is written."""
     data, matrix = evaluated.data, evaluated.matrix_world.copy()
     rotation = matrix.to_quaternion()
     radius, half_length, axes = _size(data, matrix, rotation)
     cone = (data.spot_size, data.spot_blend) if data.type == 'SPOT' else None
-    return LightState(evaluated.name, TYPES[data.type], tuple(matrix.translation),
-                      tuple(rotation @ Vector((0, 0, -1))), radius, half_length, axes, cone,
-                      tuple(data.color), data.energy, matrix)
+    emission = node_emission(data)
+    hidden = evaluated.hide_render or not getattr(evaluated, "visible_diffuse", True)
+    return LightState(
+        name, TYPES[data.type], tuple(matrix.translation), tuple(rotation @ Vector((0, 0, -1))),
+        radius, half_length, axes, cone,
+        tuple(one * other for one, other in zip(data.color, emission.color)),
+        0.0 if hidden else data.energy * emission.strength, compat.casts_shadow(data),
+        emission.unknown, matrix)
 
 
 def _size(data, matrix, rotation):
@@ -55,6 +63,15 @@ def _size(data, matrix, rotation):
     if height > width:
         axes.reverse()
     return math.sqrt(area / math.pi), 0.5 * max(width, height), tuple(axes)
+
+
+def area_extents(evaluated):
+    """(shape, half the longer side, half the shorter) of an evaluated area light in the world."""
+    data, scale = evaluated.data, evaluated.matrix_world.to_scale()
+    square = data.shape in {'SQUARE', 'DISK'}
+    sides = data.size * abs(scale.x), (data.size if square else data.size_y) * abs(scale.y)
+    shape = "ellipse" if data.shape in {'DISK', 'ELLIPSE'} else "rectangle"
+    return shape, 0.5 * max(sides), 0.5 * min(sides)
 
 
 def travel_direction(state, subject_center):
