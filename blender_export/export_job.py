@@ -6,11 +6,13 @@ import os
 import bpy
 
 from . import camera_view, exr_header, export_scenes, frame_image, shot, sidecar
+from . import survey, whole_shot
 from .casters import CasterFiles
+from .errors import ExportError
 from .light_depth import LightDepth, plan_view
 from .light_rig import LightRig
 from .output_names import light_keys, parse_output
-from .subject import bounding_sphere, corners_of, subject_things
+from .unique_names import UniqueNames
 
 
 class ExportJob:
@@ -19,6 +21,7 @@ class ExportJob:
     def __init__(self, options, say):
         self.options, self.say = options, say
         self.scene = bpy.context.scene
+        self.light_names = UniqueNames([item for item in bpy.data.objects if item.type == 'LIGHT'])
         self.frames = options.frames or [self.scene.frame_current]
         self.names = parse_output(options.output, len(self.frames))
         self._set_up()
@@ -27,18 +30,18 @@ class ExportJob:
         scene, options = self.scene, self.options
         view_layer = shot.active_view_layer(scene)
         objects = shot.rendered_objects(view_layer)
-        lights = shot.exported_lights(objects, options.lights)
+        lights = shot.lights_asked_for(objects, options.lights)
         subjects = [item for item in objects if item.type not in {'LIGHT', 'CAMERA', 'LIGHT_PROBE'}]
         shot.refuse_instanced_lights(subjects)
         shot.evaluate_as_rendered(objects, view_layer)
         self.objects = objects
+        lights = self._survey(lights)
         self.materials = sorted(bpy.data.materials, key=lambda material: material.name)
         shot.give_distinct_indices(shot.all_geometry())
         shot.give_distinct_indices(self.materials)
         notes = export_scenes.prepare_beauty(scene, view_layer, options)
         self.data = export_scenes.DataScene(scene, subjects)
-        keys = light_keys([light.name for light in lights])
-        self.rigs = [LightRig(light, keys[light.name], options, self.data) for light in lights]
+        self.rigs = self._rigs(lights)
         self.data.finish()
         self.writer, more = frame_image.shot_writer(scene, view_layer, self.data)
         self.depth = LightDepth(scene, subjects, self.data.material, options.depth_size)
@@ -47,9 +50,34 @@ class ExportJob:
         for note in notes + more:
             self.say(f"note: {note}")
 
+    def _survey(self, lights):
+        """Measures the whole shot; returns the lights that shine in it, or those asked for."""
+        names = {light: self.light_names.of(light) for light in lights}
+        samples = survey.survey(self.scene, self.objects, lights, names)
+        if not self.options.lights:
+            lights = survey.shining_lights(lights, samples, names)
+        if not lights:
+            raise ExportError("the scene has no light that renders; add a point, spot, sun or "
+                              "area light")
+        self.shot = whole_shot.measure(self.scene.frame_start, self.scene.frame_end, samples)
+        self.shot_entry = survey.describe_shot(self.shot, samples, lights, names)
+        self.aims = {light: survey.aim_of_light(self.shot, samples, names[light])
+                     for light in lights}
+        for light in lights:
+            for note in survey.light_notes(samples, names[light]):
+                self.say(f"note: {note}")
+        self.casting = {light for light in lights if survey.ever_casts(samples, names[light])}
+        return lights
+
+    def _rigs(self, lights):
+        names = [self.light_names.of(light) for light in lights]
+        keys = light_keys(names)
+        return [LightRig(light, name, keys[name], light in self.casting, self.options, self.data)
+                for light, name in zip(lights, names)]
+
     def run(self):
         os.makedirs(self.names.folder, exist_ok=True)
-        steps = len(self.frames) * (1 + len(self.rigs))
+        steps = len(self.frames) * (1 + sum(rig.masked for rig in self.rigs))
         done = 0
         for number, frame in enumerate(self.frames, 1):
             self.say(f"frame {frame} ({number} of {len(self.frames)})")
@@ -59,19 +87,19 @@ class ExportJob:
 
     def _export_frame(self, frame):
         """Renders one frame, yielding after each image; the files appear together at the end."""
-        self.scene.frame_set(frame)
-        shot.show_what_renders(self.objects)
+        shot.go_to_frame(self.scene, self.objects, frame)
         depsgraph = bpy.context.evaluated_depsgraph_get()
         view = camera_view.read_camera(self.scene, depsgraph)
         entries, things = sidecar.describe_objects(depsgraph)
-        subject = bounding_sphere(corners_of(subject_things(things, view.clip_from_world)))
-        placed = [rig.place(depsgraph, subject) for rig in self.rigs]
-        views = [self._light_view(frame, state, depsgraph, view, things) for state, _ in placed]
+        placed = [rig.place(depsgraph, self.aims[rig.light], self.shot.subject.radius)
+                  for rig in self.rigs]
+        mapped = [(rig, entry, self._light_view(frame, state, depsgraph, view, things))
+                  for rig, (state, entry) in zip(self.rigs, placed) if rig.masked]
         self.data.scene.camera = self.cameras.copy_of(self.scene.camera, self.data.scene)
         image = os.path.join(self.names.folder, self.names.image(frame))
         parts = [(frame_image.render(self.writer, frame, image), image)]
         yield
-        for rig, (_, entry), light_view in zip(self.rigs, placed, views):
+        for rig, entry, light_view in mapped:
             name = self.names.light_depth(rig.key, frame)
             path = os.path.join(self.names.folder, name)
             part = self.depth.render(light_view, frame, path)
@@ -100,7 +128,7 @@ class ExportJob:
             "kagefude": sidecar.VERSION, "frame": frame, "fps": render.fps / render.fps_base,
             "image": self.names.image(frame), "resolution": list(export_scenes.resolution(self.scene)),
             "pixel_aspect": render.pixel_aspect_x / render.pixel_aspect_y,
-            "scale": self.options.scale, "layers": {"data": "data", "beauty": "beauty"},
+            "scale": self.options.scale, "shot": self.shot_entry, "layers": {"data": "data", "beauty": "beauty"},
             "camera": sidecar.describe_camera(view), "lights": lights, "objects": objects,
             "materials": sidecar.describe_materials(self.materials)}
 

@@ -1,54 +1,72 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One exported light: its mask and truth layers in the data scene, moved into place per frame."""
 
-from . import compat, light_offset, mask_positions, vectors
+from . import light_offset, mask_positions, vectors
 from .errors import ExportError
-from .light_state import (new_mask_lamp, new_truth_lamp, place_mask_lamp, place_truth_lamp,
+from .light_state import (area_extents, new_mask_lamp, new_truth_lamp, place_mask_lamp, place_truth_lamp,
                           read_light, travel_direction, TYPES)
 from .output_names import mask_layer, truth_layer
+from .subject import Sphere
 
 
 class LightRig:
-    def __init__(self, light, key, options, data):
-        self.light, self.key, self.options = light, key, options
+    def __init__(self, light, name, key, masked, options, data):
+        """`name` is the light's own in the JSON; a light that is not `masked` casts no shadow."""
+        self.light, self.name, self.key, self.masked, self.options = light, name, key, masked, options
+        self.mask_lamps, self.truth_lamps = {}, []
+        if not masked:
+            return
         self._refuse_what_cannot_work()
         kind = TYPES[light.data.type]
-        self.mask_lamps = {}
         for number in range(options.masks.count):
-            name = mask_layer(key, number)
-            self.mask_lamps[name] = new_mask_lamp(kind, name)
-            data.add_shadow_layer(name, self.mask_lamps[name], 1)
-        self.truth_lamp = None
+            layer = mask_layer(key, number)
+            self.mask_lamps[layer] = new_mask_lamp(light, kind, layer)
+            data.add_shadow_layer(layer, self.mask_lamps[layer])
         if options.truth_samples:
-            self.truth_lamp = new_truth_lamp(light, truth_layer(key))
-            data.add_shadow_layer(truth_layer(key), self.truth_lamp, options.truth_samples)
+            layer = truth_layer(key)
+            self.truth_lamps = [new_truth_lamp(light, layer, shadow) for shadow in (True, False)]
+            data.add_truth_layer(layer, *self.truth_lamps, options.truth_samples)
 
-    def place(self, depsgraph, subject):
-        """Move the lamps to this frame's places; returns (light state, JSON entry)."""
+    def place(self, depsgraph, aim, radius):
+        """Move the lamps to this frame's places; returns (light state, JSON entry).
+
+        `aim` and `radius` are the light's subject over the whole shot.
+        """
         evaluated = self.light.evaluated_get(depsgraph)
-        state = read_light(evaluated)
+        state = read_light(evaluated, self.name)
+        subject = Sphere(aim.center(state.position), radius)
         travel = travel_direction(state, subject.center)
-        if self.truth_lamp:
-            place_truth_lamp(self.truth_lamp, state, evaluated)
-        entry = {
-            "name": state.name, "type": state.kind, "position": list(state.position),
-            "direction": list(travel if state.kind == "point" else state.direction),
-            "radius": state.radius, "color": list(state.color), "energy": state.energy,
-            "subject": {"center": list(subject.center), "radius": subject.radius}}
-        if state.cone:
-            entry["cone"] = {"angle": state.cone[0], "blend": state.cone[1]}
-        if state.kind == "sun":
-            nominal = vectors.scale(state.direction, -4.0 * max(subject.radius, 1.0))
-            entry["position"] = list(vectors.add(subject.center, nominal))
-        self._place_masks(state, travel, subject, entry)
-        if self.truth_lamp:
+        for lamp in self.truth_lamps:
+            place_truth_lamp(lamp, state, evaluated)
+        entry = self._describe(state, travel, subject, evaluated)
+        places = mask_positions.places_on_light(self.options.masks, travel, state.surface_axes)
+        entry["axes"] = {"u": list(places.u_axis), "v": list(places.v_axis)}
+        if self.masked:
+            self._place_masks(state, travel, places, subject, entry)
+        if self.truth_lamps:
             entry["truth_layer"] = truth_layer(self.key)
             entry["truth_samples"] = self.options.truth_samples
         return state, entry
 
-    def _place_masks(self, state, travel, subject, entry):
+    def _describe(self, state, travel, subject, evaluated):
+        entry = {
+            "name": state.name, "type": state.kind, "position": list(state.position),
+            "direction": list(travel if state.kind == "point" else state.direction),
+            "radius": state.radius, "color": list(state.color), "energy": state.energy,
+            "shadow": state.casts_shadow,
+            "subject": {"center": list(subject.center), "radius": subject.radius}}
+        if state.cone:
+            entry["cone"] = {"angle": state.cone[0], "blend": state.cone[1]}
+        if state.kind == "area":
+            shape, half_u, half_v = area_extents(evaluated)
+            entry["area"] = {"shape": shape, "half_u": half_u, "half_v": half_v}
+        if state.kind == "sun":
+            nominal = vectors.scale(state.direction, -4.0 * max(subject.radius, 1.0))
+            entry["position"] = list(vectors.add(subject.center, nominal))
+        return entry
+
+    def _place_masks(self, state, travel, places, subject, entry):
         masks = self.options.masks
-        places = mask_positions.places_on_light(masks, travel, state.surface_axes)
         offset = self.options.offset or self._auto_offset(state, subject)
         samples = []
         for (layer, lamp), place in zip(self.mask_lamps.items(), places.places):
@@ -63,7 +81,6 @@ class LightRig:
             place_mask_lamp(lamp, state, sample.get("position", entry["position"]), direction)
             samples.append(sample)
         entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples}
-        entry["axes"] = {"u": list(places.u_axis), "v": list(places.v_axis)}
 
     def _auto_offset(self, state, subject):
         distance = vectors.length(vectors.subtract(state.position, subject.center))
@@ -75,6 +92,3 @@ class LightRig:
             raise ExportError(f"light '{self.light.name}' is a sun, whose shadows do not change "
                               f"along its axis, so a pair of masks would be twice the same; use "
                               f"--masks line:5 or --masks disc:5")
-        if self.options.truth_samples and not compat.has_shadow_pass():
-            raise ExportError("the traced truth needs the Shadow pass of Cycles, which this "
-                              "Blender no longer has; leave out --truth, or use Blender 3")

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import bpy
 from mathutils import Matrix, Vector
 
-from . import vectors
+from . import compat, vectors
 from .export_scenes import PREFIX
+from .light_emission import node_emission
 
 TYPES = {'POINT': "point", 'SPOT': "spot", 'SUN': "sun", 'AREA': "area"}
 
@@ -23,20 +24,27 @@ class LightState:
     half_length: float      # of the longer side of an area, otherwise the radius
     surface_axes: tuple     # of an area, the longer side first; None otherwise
     cone: tuple             # (full angle, blend) of a spot; None otherwise
-    color: tuple
-    energy: float
+    color: tuple            # with that of the light's nodes
+    energy: float           # as it is in this frame: with its nodes' strength, 0 where it is hidden
+    casts_shadow: bool
+    unknown_node: str       # name of a node of the light that could not be followed, or None
     world_from_light: Matrix
 
 
-def read_light(evaluated):
-    """The state of an evaluated light object."""
+def read_light(evaluated, name):
+    """The state of an evaluated light object, called `name` in what is written."""
     data, matrix = evaluated.data, evaluated.matrix_world.copy()
     rotation = matrix.to_quaternion()
     radius, half_length, axes = _size(data, matrix, rotation)
     cone = (data.spot_size, data.spot_blend) if data.type == 'SPOT' else None
-    return LightState(evaluated.name, TYPES[data.type], tuple(matrix.translation),
-                      tuple(rotation @ Vector((0, 0, -1))), radius, half_length, axes, cone,
-                      tuple(data.color), data.energy, matrix)
+    emission = node_emission(data)
+    hidden = evaluated.hide_render or not getattr(evaluated, "visible_diffuse", True)
+    return LightState(
+        name, TYPES[data.type], tuple(matrix.translation), tuple(rotation @ Vector((0, 0, -1))),
+        radius, half_length, axes, cone,
+        tuple(one * other for one, other in zip(data.color, emission.color)),
+        0.0 if hidden else data.energy * emission.strength, compat.casts_shadow(data),
+        emission.unknown, matrix)
 
 
 def _size(data, matrix, rotation):
@@ -57,6 +65,15 @@ def _size(data, matrix, rotation):
     return math.sqrt(area / math.pi), 0.5 * max(width, height), tuple(axes)
 
 
+def area_extents(evaluated):
+    """(shape, half the longer side, half the shorter) of an evaluated area light in the world."""
+    data, scale = evaluated.data, evaluated.matrix_world.to_scale()
+    square = data.shape in {'SQUARE', 'DISK'}
+    sides = data.size * abs(scale.x), (data.size if square else data.size_y) * abs(scale.y)
+    shape = "ellipse" if data.shape in {'DISK', 'ELLIPSE'} else "rectangle"
+    return shape, 0.5 * max(sides), 0.5 * min(sides)
+
+
 def travel_direction(state, subject_center):
     """Unit direction from the light to its subject; a sun's and an area's own direction."""
     if state.kind in ("sun", "area"):
@@ -64,7 +81,7 @@ def travel_direction(state, subject_center):
     return vectors.normalize(vectors.subtract(subject_center, state.position), state.direction)
 
 
-def new_mask_lamp(kind, name):
+def new_mask_lamp(light, kind, name):
     """A lamp of size 0. An area shines to one side only, as a spot of 180 degrees does."""
     data = bpy.data.lights.new(PREFIX + name, {'point': 'POINT', 'sun': 'SUN'}.get(kind, 'SPOT'))
     data.energy = 1.0 if kind == "sun" else 1000.0
@@ -72,7 +89,7 @@ def new_mask_lamp(kind, name):
         data.angle = 0.0
     else:
         data.shadow_soft_size = 0.0
-    return bpy.data.objects.new(PREFIX + name, data)
+    return _new_lamp(light, name, data)
 
 
 def place_mask_lamp(lamp, state, position, direction):
@@ -87,15 +104,22 @@ def place_mask_lamp(lamp, state, position, direction):
         lamp.data.spot_size, lamp.data.spot_blend = angle, blend
 
 
-def new_truth_lamp(light, name):
-    """The light itself at its real size, in plain white."""
+def new_truth_lamp(light, name, shadow):
+    """The light itself at its real size, in plain white, with or without shadows."""
     data = light.data.copy()
     data.animation_data_clear()
     data.name = PREFIX + name
     data.use_nodes = False
     data.color = (1.0, 1.0, 1.0)
     data.energy = 1.0 if data.type == 'SUN' else 1000.0
-    return bpy.data.objects.new(PREFIX + name, data)
+    compat.set_casts_shadow(data, shadow)
+    return _new_lamp(light, name, data)
+
+
+def _new_lamp(light, name, data):
+    lamp = bpy.data.objects.new(PREFIX + name, data)
+    compat.copy_light_linking(light, lamp)
+    return lamp
 
 
 def place_truth_lamp(lamp, state, evaluated):

@@ -6,6 +6,7 @@ All changes made here stay in the memory of the exporting Blender, which never s
 
 import bpy
 
+from . import animation
 from .errors import ExportError, nearest
 
 GEOMETRY = {'MESH', 'CURVE', 'CURVES', 'SURFACE', 'FONT', 'META', 'VOLUME', 'POINTCLOUD'}
@@ -51,10 +52,16 @@ def evaluate_as_rendered(objects, view_layer):
                 modifier.levels = modifier.render_levels
 
 
-def show_what_renders(objects):
-    """The same for the objects' own switches, which may be animated: call it on every frame."""
+def go_to_frame(scene, objects, frame, subframe=0.0):
+    """Evaluate `frame` with the objects' own switches, which may be animated, as a render sees them."""
     for item in objects:
-        item.hide_viewport = item.hide_render
+        # What is hidden is not evaluated, and would never learn that it appears.
+        if animation.is_animated(item, "hide_render"):
+            item.hide_viewport = False
+    scene.frame_set(frame, subframe=subframe)
+    for item in objects:
+        # A light that is off is still asked where it is.
+        item.hide_viewport = item.hide_render and item.type != 'LIGHT'
 
 
 def _open_eyes(layer_collection):
@@ -63,25 +70,21 @@ def _open_eyes(layer_collection):
         _open_eyes(child)
 
 
-def exported_lights(objects, names):
-    """The named lights, or all that render and cast shadows; ExportError names what there is."""
+def lights_asked_for(objects, names):
+    """The named lights, or all that there are; ExportError names what there is."""
     lights = {item.name: item for item in objects if item.type == 'LIGHT'}
     for name in names:
         if name not in lights:
             known = ", ".join(sorted(lights)) or "none"
             raise ExportError(f"there is no light '{name}' that renders (lights: {known})"
                               f"{nearest(name, list(lights))}")
-    chosen = [lights[name] for name in dict.fromkeys(names)] if names else \
-        [item for item in lights.values() if not item.hide_render and casts_shadow(item.data)]
-    if not chosen:
-        raise ExportError("the scene has no light that renders and casts shadows, so there is "
-                          "nothing to take shadow masks from; add a point, spot, sun or area light")
-    return chosen
+    if names:
+        return [lights[name] for name in dict.fromkeys(names)]
+    return [item for item in lights.values() if not _is_portal(item.data)]
 
 
-def casts_shadow(light):
-    portal = getattr(getattr(light, "cycles", None), "is_portal", False)
-    return getattr(light, "use_shadow", True) and light.cycles.cast_shadow and not portal
+def _is_portal(light):
+    return getattr(getattr(light, "cycles", None), "is_portal", False)
 
 
 def refuse_instanced_lights(objects):
