@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which properties of a data-block may change from frame to frame."""
 
+from . import compat
+
 
 def is_animated(block, *names):
     """True where a curve or driver acts on a property of these names, or where that cannot be told.
@@ -12,14 +14,5 @@ def is_animated(block, *names):
         return False
     if len(animation.nla_tracks):
         return True
-    curves = [*animation.drivers, *_action_curves(animation.action)]
+    curves = [*animation.drivers, *compat.action_curves(animation.action)]
     return any(curve.data_path.rpartition(".")[2] in names for curve in curves)
-
-
-def _action_curves(action):
-    if action is None:
-        return []
-    if hasattr(action, "fcurves"):  # until Blender 4.4
-        return list(action.fcurves)
-    return [curve for layer in action.layers for strip in layer.strips
-            for bag in strip.channelbags for curve in bag.fcurves]

@@ -1,16 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that differs between Blender versions, in one place (3.4 measured; 4.x by its notes)."""
+"""Everything that differs between Blender versions, in one place (measured on 3.4, 4.3 and 5.2).
+
+Where it can be asked, a capability is asked for and not a number.
+"""
+
+import os
 
 import bpy
 
-# Names of a Render Layers node's outputs -> the pass's name in our files.
-PASS_OF_SOCKET = {"Image": "Combined", "Diffuse Color": "DiffCol", "Diffuse Direct": "DiffDir",
-                  "Object Index": "IndexOB", "Material Index": "IndexMA"}
+# Names of a Render Layers node's outputs -> the pass's name in our files, which is that of 3.4.
+PASS_OF_SOCKET = {
+    "Image": "Combined", "Object Index": "IndexOB", "Material Index": "IndexMA",
+    "Diffuse Direct": "DiffDir", "Diffuse Indirect": "DiffInd", "Diffuse Color": "DiffCol",
+    "Glossy Direct": "GlossDir", "Glossy Indirect": "GlossInd", "Glossy Color": "GlossCol",
+    "Transmission Direct": "TransDir", "Transmission Indirect": "TransInd",
+    "Transmission Color": "TransCol", "Volume Direct": "VolumeDir", "Volume Indirect": "VolumeInd",
+    "Subsurface Direct": "SubsurfaceDir", "Subsurface Indirect": "SubsurfaceInd",
+    "Subsurface Color": "SubsurfaceCol", "Emission": "Emit", "Environment": "Env",
+    "Ambient Occlusion": "AO"}
 
+
+# Lights ---------------------------------------------------------------------------------------
 
 def has_shadow_pass():
-    """Cycles dropped its Shadow pass in Blender 4.0."""
-    return bpy.app.version < (4, 0, 0)
+    """Cycles dropped its Shadow pass in 3.5; the switch stayed, but the pass is empty."""
+    return bpy.app.version < (3, 5, 0)
 
 
 def enable_mask_pass(view_layer):
@@ -26,6 +40,29 @@ def enable_mask_pass(view_layer):
     return "DiffDir", 0.0
 
 
+def casts_shadow(light):
+    """Whether Cycles lets this light data cast shadows: its own switch before 5.0, then the light's."""
+    settings = getattr(light, "cycles", None)
+    own = getattr(settings, "cast_shadow", None)
+    return bool(getattr(light, "use_shadow", True) if own is None else own)
+
+
+def set_casts_shadow(light, casts):
+    settings = getattr(light, "cycles", None)
+    set_if_known(settings, cast_shadow=casts)
+    set_if_known(light, use_shadow=casts)
+
+
+def copy_light_linking(source, lamp):
+    """Let `lamp` light and be hidden by the same objects as the light object `source` (4.0 on)."""
+    linking = getattr(source, "light_linking", None)
+    if linking:
+        lamp.light_linking.receiver_collection = linking.receiver_collection
+        lamp.light_linking.blocker_collection = linking.blocker_collection
+
+
+# Passes ---------------------------------------------------------------------------------------
+
 def pass_name(socket_name):
     return PASS_OF_SOCKET.get(socket_name, socket_name)
 
@@ -38,15 +75,96 @@ def output_socket(node, wanted):
     return None
 
 
+# Compositor -----------------------------------------------------------------------------------
+
+def compositor_tree(scene):
+    """An empty compositor for the scene: a node group of its own from 5.0, part of it before."""
+    # The graphics card, the default since 4.2, needs a display driver and may round to half floats.
+    set_if_known(scene.render, compositor_device='CPU', compositor_precision='FULL')
+    if hasattr(scene, "compositing_node_group"):
+        scene.compositing_node_group = bpy.data.node_groups.new(scene.name, 'CompositorNodeTree')
+        return scene.compositing_node_group
+    scene.use_nodes = True
+    scene.node_tree.nodes.clear()
+    return scene.node_tree
+
+
+def remove_compositor(scene):
+    """Leave a copied scene without compositing; its original keeps its own."""
+    if hasattr(scene, "compositing_node_group"):
+        scene.compositing_node_group = None
+    else:
+        scene.use_nodes = False
+
+
+def math_node(tree, operation):
+    """A Math node of the compositor, which shares the shaders' node from 5.0."""
+    own = hasattr(bpy.types, "CompositorNodeMath")
+    node = tree.nodes.new('CompositorNodeMath' if own else 'ShaderNodeMath')
+    node.operation = operation
+    return node
+
+
 def first_channel_of_colour(tree, socket):
     """A value socket that carries the red channel of `socket`."""
-    if bpy.app.version < (3, 3, 0):
-        node = tree.nodes.new('CompositorNodeSepRGBA')
-    else:
-        node = tree.nodes.new('CompositorNodeSeparateColor')
+    node = tree.nodes.new('CompositorNodeSeparateColor')
     tree.links.new(socket, node.inputs[0])
     return node.outputs[0]
 
+
+class LayerFile:
+    """A File Output node that writes its inputs as layers of one float multilayer EXR of one part."""
+
+    def __init__(self, tree):
+        self.tree = tree
+        self.node = tree.nodes.new('CompositorNodeOutputFile')
+        form = self.node.format
+        # The kinds of file are sorted by medium from 5.0, and only those of the medium can be set.
+        set_if_known(form, media_type='MULTI_LAYER_IMAGE')
+        form.file_format, form.color_depth, form.exr_codec = 'OPEN_EXR_MULTILAYER', '32', 'ZIP'
+        set_if_known(form, use_exr_interleave=True)
+        self.names = []
+
+    def add(self, socket, name):
+        """Write what `socket` carries as the layer `name`."""
+        if hasattr(self.node, "file_output_items"):
+            item = self.node.file_output_items.new(socket.type.replace('VALUE', 'FLOAT'), name)
+            if socket.type == 'VECTOR':
+                # Motion vectors have four values.
+                four = socket.bl_idname.endswith("4D")
+                item.vector_socket_dimensions = 4 if four else 3
+            place = self.node.inputs[len(self.names)]
+        else:
+            if self.names:
+                self.node.layer_slots.new(name)
+            else:
+                # The slot of a new node; removing it would leak and make Blender end with an error.
+                self.node.layer_slots[0].name = name
+            place = self.node.inputs[-1]
+        self.tree.links.new(socket, place)
+        self.names.append(name)
+
+    def set_path(self, path):
+        """Where the next render writes; Blender puts frame number and ending behind `path`."""
+        if hasattr(self.node, "base_path"):
+            self.node.base_path = path
+        else:
+            self.node.directory, self.node.file_name = os.path.split(path)
+
+
+# Animation ------------------------------------------------------------------------------------
+
+def action_curves(action):
+    """The curves of an action, which lie in layers from 5.0; none of None."""
+    if action is None:
+        return []
+    if hasattr(action, "fcurves"):
+        return list(action.fcurves)
+    return [curve for layer in action.layers for strip in layer.strips
+            for bag in strip.channelbags for curve in bag.fcurves]
+
+
+# Anything -------------------------------------------------------------------------------------
 
 def set_if_known(holder, **values):
     """Set the properties that this Blender has; the others belong to other versions."""

@@ -8,6 +8,8 @@ scene whose compositor takes the layers of both and puts them into one multilaye
 depth map is one more scene, seen from the light.
 """
 
+from dataclasses import dataclass
+
 import bpy
 
 from . import compat
@@ -61,7 +63,7 @@ def exact_scene(artist_scene, name):
     scene.name = PREFIX + name
     scene.animation_data_clear()
     scene.timeline_markers.clear()
-    scene.use_nodes = False
+    compat.remove_compositor(scene)
     scene.world = None
     for child in list(scene.collection.children):
         scene.collection.children.unlink(child)
@@ -121,6 +123,14 @@ def enable_data_passes(view_layer):
         setattr(view_layer, "use_pass_" + name, True)
 
 
+@dataclass
+class Reading:
+    """How a layer's one channel is made of a pass of a view layer."""
+    pass_name: str
+    threshold: float = None   # 1 above it, 0 elsewhere
+    share_of: str = None      # name of a view layer by whose pass it is divided
+
+
 class DataScene:
     """Data layer, mask layers and truth layers, with their lamps."""
 
@@ -128,21 +138,34 @@ class DataScene:
         self.scene = exact_scene(artist_scene, "data")
         self.subjects = link_collection(self.scene, "subjects", subjects)
         self.material = plain_material()
-        self.layers = {}      # layer name -> (pass to read, threshold or None)
+        self.layers = {}      # layer name -> Reading
         data = replace_view_layers(self.scene, "data")
         data.samples = 1
         enable_data_passes(data)
         self._lamps = {data.name: None}
 
-    def add_shadow_layer(self, name, lamp, samples):
-        """A view layer lit by `lamp` alone, that holds how much of it each pixel sees."""
+    def add_shadow_layer(self, name, lamp):
+        """A view layer lit by `lamp` alone, a point, that holds whether each pixel sees it."""
+        pass_name, threshold = compat.enable_mask_pass(self._add_layer(name, lamp, 1))
+        self.layers[name] = Reading(pass_name, threshold)
+
+    def add_truth_layer(self, name, lamp, bare_lamp, samples):
+        """One that holds how much of `lamp` each pixel sees; `bare_lamp` is the same without shadows."""
+        pass_name, threshold = compat.enable_mask_pass(self._add_layer(name, lamp, samples))
+        bare = None
+        if threshold is not None:
+            bare = "bare." + name
+            compat.enable_mask_pass(self._add_layer(bare, bare_lamp, samples))
+        self.layers[name] = Reading(pass_name, None, bare)
+
+    def _add_layer(self, name, lamp, samples):
         view_layer = self.scene.view_layers.new(name)
         if view_layer.name != name:
             raise ExportError(f"the layer name '{name}' cannot be used in Blender")
         view_layer.samples = samples
         view_layer.material_override = self.material
-        self.layers[name] = compat.enable_mask_pass(view_layer)
         self._lamps[name] = link_collection(self.scene, name, [lamp])
+        return view_layer
 
     def finish(self):
         """Keep every lamp out of all layers but its own."""
@@ -159,14 +182,12 @@ class Writer:
         render.resolution_x, render.resolution_y = resolution(like)
         render.resolution_percentage = 100
         render.use_stamp_date = render.use_stamp_filename = render.use_stamp_render_time = False
-        self.scene.use_nodes = True
-        self.tree = self.scene.node_tree
-        self.tree.nodes.clear()
-        self.node = self.tree.nodes.new('CompositorNodeOutputFile')
-        self.node.format.file_format = 'OPEN_EXR_MULTILAYER'
-        self.node.format.color_depth = '32'
-        self.node.format.exr_codec = 'ZIP'
-        self.names = []
+        self.tree = compat.compositor_tree(self.scene)
+        self.file = compat.LayerFile(self.tree)
+
+    @property
+    def names(self):
+        return self.file.names
 
     def source(self, scene, layer_name):
         node = self.tree.nodes.new('CompositorNodeRLayers')
@@ -175,13 +196,7 @@ class Writer:
         return node
 
     def add(self, socket, name):
-        if self.names:
-            self.node.layer_slots.new(name)
-        else:
-            # The slot that a new node has; removing it would leak and make Blender end with an error.
-            self.node.layer_slots[0].name = name
-        self.tree.links.new(socket, self.node.inputs[-1])
-        self.names.append(name)
+        self.file.add(socket, name)
 
     def add_pass(self, node, pass_name, name):
         socket = compat.output_socket(node, pass_name)
@@ -189,13 +204,28 @@ class Writer:
             raise ExportError(f"Blender gives no {pass_name} pass for layer '{node.layer}'")
         self.add(socket, name)
 
-    def add_mask(self, node, pass_name, threshold, name):
-        """One channel: the pass itself, or 1 where it is above `threshold`."""
-        value = compat.first_channel_of_colour(self.tree, compat.output_socket(node, pass_name))
-        if threshold is not None:
-            above = self.tree.nodes.new('CompositorNodeMath')
-            above.operation = 'GREATER_THAN'
-            above.inputs[1].default_value = threshold
-            self.tree.links.new(value, above.inputs[0])
-            value = above.outputs[0]
-        self.add(value, name)
+    def add_reading(self, scene, layer, reading):
+        """One channel, as `reading` says, of a view layer of `scene`."""
+        value = self._red(scene, layer, reading.pass_name)
+        if reading.threshold is not None:
+            value = self._calculated('GREATER_THAN', value, reading.threshold)
+        if reading.share_of:
+            # 0 divided by 0, where no light arrives, is 0 to the compositor.
+            whole = self._red(scene, reading.share_of, reading.pass_name)
+            value = self._calculated('DIVIDE', value, whole)
+        self.add(value, layer)
+
+    def _red(self, scene, layer, pass_name):
+        socket = compat.output_socket(self.source(scene, layer), pass_name)
+        if socket is None:
+            raise ExportError(f"Blender gives no {pass_name} pass for layer '{layer}'")
+        return compat.first_channel_of_colour(self.tree, socket)
+
+    def _calculated(self, operation, first, second):
+        node = compat.math_node(self.tree, operation)
+        self.tree.links.new(first, node.inputs[0])
+        if isinstance(second, float):
+            node.inputs[1].default_value = second
+        else:
+            self.tree.links.new(second, node.inputs[1])
+        return node.outputs[0]

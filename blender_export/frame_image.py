@@ -19,8 +19,8 @@ def shot_writer(beauty_scene, beauty_layer, data):
     for name in DATA_PASSES:
         writer.add_pass(node, name, f"data.{name}")
     notes = _add_beauty(writer, writer.source(beauty_scene, beauty_layer.name))
-    for layer, (pass_name, threshold) in data.layers.items():
-        writer.add_mask(writer.source(data.scene, layer), pass_name, threshold, layer)
+    for layer, reading in data.layers.items():
+        writer.add_reading(data.scene, layer, reading)
     return writer, notes
 
 
@@ -56,7 +56,7 @@ def render(writer, frame, path):
     folder, name = os.path.split(path)
     base = os.path.join(folder, f".{name}.part")
     remove_parts(base)
-    writer.node.base_path = base
+    writer.file.set_path(base)
     writer.scene.frame_set(frame)
     bpy.ops.render.render(scene=writer.scene.name)
     parts = glob.glob(glob.escape(base) + "*")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One exported light: its mask and truth layers in the data scene, moved into place per frame."""
 
-from . import compat, light_offset, mask_positions, vectors
+from . import light_offset, mask_positions, vectors
 from .errors import ExportError
 from .light_state import (area_extents, new_mask_lamp, new_truth_lamp, place_mask_lamp, place_truth_lamp,
                           read_light, travel_direction, TYPES)
@@ -13,18 +13,19 @@ class LightRig:
     def __init__(self, light, name, key, masked, options, data):
         """`name` is the light's own in the JSON; a light that is not `masked` casts no shadow."""
         self.light, self.name, self.key, self.masked, self.options = light, name, key, masked, options
-        self.mask_lamps, self.truth_lamp = {}, None
+        self.mask_lamps, self.truth_lamps = {}, []
         if not masked:
             return
         self._refuse_what_cannot_work()
         kind = TYPES[light.data.type]
         for number in range(options.masks.count):
             layer = mask_layer(key, number)
-            self.mask_lamps[layer] = new_mask_lamp(kind, layer)
-            data.add_shadow_layer(layer, self.mask_lamps[layer], 1)
+            self.mask_lamps[layer] = new_mask_lamp(light, kind, layer)
+            data.add_shadow_layer(layer, self.mask_lamps[layer])
         if options.truth_samples:
-            self.truth_lamp = new_truth_lamp(light, truth_layer(key))
-            data.add_shadow_layer(truth_layer(key), self.truth_lamp, options.truth_samples)
+            layer = truth_layer(key)
+            self.truth_lamps = [new_truth_lamp(light, layer, shadow) for shadow in (True, False)]
+            data.add_truth_layer(layer, *self.truth_lamps, options.truth_samples)
 
     def place(self, depsgraph, aim, radius):
         """Move the lamps to this frame's places; returns (light state, JSON entry).
@@ -35,14 +36,14 @@ class LightRig:
         state = read_light(evaluated, self.name)
         subject = Sphere(aim.center(state.position), radius)
         travel = travel_direction(state, subject.center)
-        if self.truth_lamp:
-            place_truth_lamp(self.truth_lamp, state, evaluated)
+        for lamp in self.truth_lamps:
+            place_truth_lamp(lamp, state, evaluated)
         entry = self._describe(state, travel, subject, evaluated)
         places = mask_positions.places_on_light(self.options.masks, travel, state.surface_axes)
         entry["axes"] = {"u": list(places.u_axis), "v": list(places.v_axis)}
         if self.masked:
             self._place_masks(state, travel, places, subject, entry)
-        if self.truth_lamp:
+        if self.truth_lamps:
             entry["truth_layer"] = truth_layer(self.key)
             entry["truth_samples"] = self.options.truth_samples
         return state, entry
@@ -91,6 +92,3 @@ class LightRig:
             raise ExportError(f"light '{self.light.name}' is a sun, whose shadows do not change "
                               f"along its axis, so a pair of masks would be twice the same; use "
                               f"--masks line:5 or --masks disc:5")
-        if self.options.truth_samples and not compat.has_shadow_pass():
-            raise ExportError("the traced truth needs the Shadow pass of Cycles, which this "
-                              "Blender no longer has; leave out --truth, or use Blender 3")

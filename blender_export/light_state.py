@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import bpy
 from mathutils import Matrix, Vector
 
-from . import vectors
+from . import compat, vectors
 from .export_scenes import PREFIX
 from .light_emission import node_emission
 
@@ -43,13 +43,8 @@ def read_light(evaluated, name):
         name, TYPES[data.type], tuple(matrix.translation), tuple(rotation @ Vector((0, 0, -1))),
         radius, half_length, axes, cone,
         tuple(one * other for one, other in zip(data.color, emission.color)),
-        0.0 if hidden else data.energy * emission.strength, casts_shadow(data), emission.unknown,
-        matrix)
-
-
-def casts_shadow(data):
-    cycles = getattr(data, "cycles", None)
-    return getattr(data, "use_shadow", True) and getattr(cycles, "cast_shadow", True)
+        0.0 if hidden else data.energy * emission.strength, compat.casts_shadow(data),
+        emission.unknown, matrix)
 
 
 def _size(data, matrix, rotation):
@@ -86,7 +81,7 @@ def travel_direction(state, subject_center):
     return vectors.normalize(vectors.subtract(subject_center, state.position), state.direction)
 
 
-def new_mask_lamp(kind, name):
+def new_mask_lamp(light, kind, name):
     """A lamp of size 0. An area shines to one side only, as a spot of 180 degrees does."""
     data = bpy.data.lights.new(PREFIX + name, {'point': 'POINT', 'sun': 'SUN'}.get(kind, 'SPOT'))
     data.energy = 1.0 if kind == "sun" else 1000.0
@@ -94,7 +89,7 @@ def new_mask_lamp(kind, name):
         data.angle = 0.0
     else:
         data.shadow_soft_size = 0.0
-    return bpy.data.objects.new(PREFIX + name, data)
+    return _new_lamp(light, name, data)
 
 
 def place_mask_lamp(lamp, state, position, direction):
@@ -109,15 +104,22 @@ def place_mask_lamp(lamp, state, position, direction):
         lamp.data.spot_size, lamp.data.spot_blend = angle, blend
 
 
-def new_truth_lamp(light, name):
-    """The light itself at its real size, in plain white."""
+def new_truth_lamp(light, name, shadow):
+    """The light itself at its real size, in plain white, with or without shadows."""
     data = light.data.copy()
     data.animation_data_clear()
     data.name = PREFIX + name
     data.use_nodes = False
     data.color = (1.0, 1.0, 1.0)
     data.energy = 1.0 if data.type == 'SUN' else 1000.0
-    return bpy.data.objects.new(PREFIX + name, data)
+    compat.set_casts_shadow(data, shadow)
+    return _new_lamp(light, name, data)
+
+
+def _new_lamp(light, name, data):
+    lamp = bpy.data.objects.new(PREFIX + name, data)
+    compat.copy_light_linking(light, lamp)
+    return lamp
 
 
 def place_truth_lamp(lamp, state, evaluated):

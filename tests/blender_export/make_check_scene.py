@@ -34,8 +34,10 @@ def add_objects():
     box = tools.box("Box", (-0.5, -0.5, 0), (0.5, 0.5, 1.2), tools.material("Lamp", (0.8, 0.3, 0.2)))
     box.location = (1.6, 0.4, 0)
     box.pass_index = 7
-    emission = box.active_material.node_tree.nodes["Principled BSDF"].inputs["Emission"]
-    emission.default_value = (1.0, 0.5, 0.2, 1.0)
+    glow = box.active_material.node_tree.nodes["Principled BSDF"].inputs
+    # Blender 4 calls it otherwise, and starts with a strength of 0.
+    (glow.get("Emission") or glow["Emission Color"]).default_value = (1.0, 0.5, 0.2, 1.0)
+    glow["Emission Strength"].default_value = 1.0
     hidden = tools.box("Not Rendered", (-3, -3, 3), (3, 3, 3.2), tools.material("Unused", (1, 0, 0)))
     hidden.hide_render = True
     late = tools.box("Late", (-3, 2, 0), (-2.4, 2.6, 0.6), tools.material("Blue", (0.1, 0.2, 0.7)))

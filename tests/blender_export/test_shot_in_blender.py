@@ -36,7 +36,9 @@ key(emission.inputs["Strength"], "default_value", f1=1.0, f3=0.25)
 light("Dark", 'POINT', (1, -1, 4), energy=0.0)
 light("Never", 'POINT', (1, -2, 4), energy=50.0).hide_render = True
 fill = light("Fill", 'AREA', (0, -3, 4), (30, 0, 0), energy=20, shape='ELLIPSE', size=0.4, size_y=2.0)
-fill.data.cycles.cast_shadow = False
+fill.data.use_shadow = False
+if hasattr(fill.data.cycles, "cast_shadow"):  # Cycles' own switch, before Blender 4.2
+    fill.data.cycles.cast_shadow = False
 tools.camera((0, -7, 3), (0, 0, 0.5), 50)
 scene.frame_start, scene.frame_end = 1, 3
 """
