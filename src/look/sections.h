@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/parameter.h"
-#include "frame/write_image.h"
+#include "exr/write_image.h"
 
 // The look's sections that are not a pass's own parameters. Each is declared once, here.
 namespace kagefude {
