@@ -9,6 +9,7 @@ from .frame_ranges import parse_frames
 
 DISC_MASKS = (5, 9, 17, 33, 65)
 MOST_LINE_MASKS = 64
+MASK_BACKENDS = ("auto", "layers", "groups", "occlusion", "raycast")
 
 
 @dataclass
@@ -24,6 +25,7 @@ class Options:
     frames: list = None          # None: the frame the file was saved at
     lights: list = field(default_factory=list)  # empty: every light that renders
     masks: Arrangement = field(default_factory=Arrangement)
+    masks_by: str = "auto"       # one of MASK_BACKENDS
     offset: float = None         # None: from the light's size; world units, for a sun a tangent
     truth_samples: int = 0       # 0: no truth layer
     scale: int = 1
@@ -50,6 +52,13 @@ def parse_masks(text):
     raise UsageError(f"'{text}' is not an arrangement of masks (pair, line:2 to "
                      f"line:{MOST_LINE_MASKS}, {', '.join(discs)})"
                      f"{nearest(text, ['pair', 'line:5', *discs])}")
+
+
+def parse_backend(text):
+    if text not in MASK_BACKENDS:
+        raise UsageError(f"'{text}' is not a way to render masks ({', '.join(MASK_BACKENDS)})"
+                         f"{nearest(text, list(MASK_BACKENDS))}")
+    return text
 
 
 def parse_offset(text):
@@ -89,6 +98,10 @@ def build_parser():
     parser.add_argument("--masks", type=parse_masks, default=Arrangement(), metavar="HOW",
                         help="pair, line:K, or disc:K with K 5, 9, 17, 33 or 65 (default: disc:9); "
                              "thin shadows of wide lights need the larger discs")
+    parser.add_argument("--masks-by", type=parse_backend, default="auto", metavar="HOW",
+                        help="auto, layers (a render a mask), groups (light groups), or by rays, "
+                             "all masks in one sample: raycast (Blender 5.1 on) or occlusion; what "
+                             "rays cannot do right is done by layers (default: auto)")
     parser.add_argument("--offset", type=parse_offset, default=None, metavar="L",
                         help="distance of the outermost masks from the light's centre in world "
                              "units, for a sun the tangent of the angle, or auto: from the "

@@ -20,7 +20,7 @@ def shot_writer(beauty_scene, beauty_layer, data):
         writer.add_pass(node, name, f"data.{name}")
     notes = _add_beauty(writer, writer.source(beauty_scene, beauty_layer.name))
     for layer, reading in data.layers.items():
-        writer.add_reading(data.scene, layer, reading)
+        writer.add_reading(layer, reading)
     return writer, notes
 
 

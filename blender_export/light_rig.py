@@ -3,25 +3,21 @@
 
 from . import light_offset, mask_positions, vectors
 from .errors import ExportError
-from .light_state import (area_extents, new_mask_lamp, new_truth_lamp, place_mask_lamp, place_truth_lamp,
-                          read_light, travel_direction, TYPES)
-from .output_names import mask_layer, truth_layer
+from .light_state import (area_extents, new_truth_lamp, place_truth_lamp, read_light,
+                          travel_direction)
+from .output_names import truth_layer
 from .subject import Sphere
 
 
 class LightRig:
-    def __init__(self, light, name, key, masked, options, data):
+    def __init__(self, light, name, key, masked, options, data, backends):
         """`name` is the light's own in the JSON; a light that is not `masked` casts no shadow."""
         self.light, self.name, self.key, self.masked, self.options = light, name, key, masked, options
-        self.mask_lamps, self.truth_lamps = {}, []
+        self.masks, self.truth_lamps = None, []
         if not masked:
             return
         self._refuse_what_cannot_work()
-        kind = TYPES[light.data.type]
-        for number in range(options.masks.count):
-            layer = mask_layer(key, number)
-            self.mask_lamps[layer] = new_mask_lamp(light, kind, layer)
-            data.add_shadow_layer(layer, self.mask_lamps[layer])
+        self.masks = backends.masks_of(light, key, options.masks.count)
         if options.truth_samples:
             layer = truth_layer(key)
             self.truth_lamps = [new_truth_lamp(light, layer, shadow) for shadow in (True, False)]
@@ -69,7 +65,7 @@ class LightRig:
         masks = self.options.masks
         offset = self.options.offset or self._auto_offset(state, subject)
         samples = []
-        for (layer, lamp), place in zip(self.mask_lamps.items(), places.places):
+        for number, (layer, place) in enumerate(zip(self.masks.names, places.places)):
             sample = {"layer": layer, "uv": list(place)}
             direction = None
             if state.kind == "sun":
@@ -78,9 +74,10 @@ class LightRig:
             else:
                 position = mask_positions.mask_position(state.position, places, place, offset)
                 sample["position"] = list(position)
-            place_mask_lamp(lamp, state, sample.get("position", entry["position"]), direction)
+            self.masks.place(number, state, sample.get("position", entry["position"]), direction)
             samples.append(sample)
-        entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples}
+        entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples,
+                          "by": self.masks.by}
 
     def _auto_offset(self, state, subject):
         distance = vectors.length(vectors.subtract(state.position, subject.center))

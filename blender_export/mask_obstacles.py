@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What keeps a light's masks from being taken by rays of a shader node, which meet everything as
+plain opaque surfaces and know nothing of light linking."""
+
+from dataclasses import dataclass
+
+from mathutils import Vector
+
+from . import compat, sight_nodes
+
+ROUND_SUN = 0.02   # radians to spare round the masks of a sun
+
+
+@dataclass
+class Obstacle:
+    words: str
+    speaks: bool = True   # False: of no concern to someone who asked for `auto`
+
+
+def of_rays(by, light, objects, turn=None):
+    """Why rays are wrong for the light among the objects, or None."""
+    if compat.has_light_linking(light):
+        return Obstacle("its light linking is known to lamps only")
+    if turn and light.data.type == 'SUN':
+        toward = light.matrix_world.to_quaternion() @ Vector((0.0, 0.0, 1.0))
+        if toward.angle(sight_nodes.blind_toward(turn)) < 0.5 * light.data.angle + ROUND_SUN:
+            return Obstacle("the Ambient Occlusion node cannot be aimed where this sun stands")
+    for item in objects:
+        words = _of_object(by, item)
+        if words:
+            return Obstacle(f"object '{item.name}' {words}")
+    return None
+
+
+def _of_object(by, item):
+    if item.type in {'CURVES', 'POINTCLOUD'}:
+        return "is made of hair or points"
+    if item.type == 'VOLUME':
+        return "is a volume"
+    if any(system.settings.type == 'HAIR' and system.settings.render_type == 'PATH'
+           for system in item.particle_systems):
+        return "has hair"
+    if by == "raycast" and not item.visible_shadow and not compat.can_hide_from_raycast():
+        return "casts no shadow, which the Raycast node learns in Blender 5.2"
+    for slot in item.material_slots:
+        words = slot.material and of_material(slot.material)
+        if words:
+            return f"has the material '{slot.material.name}', {words}"
+    return None
+
+
+def of_material(material):
+    """What is more to the material than an opaque surface, in words; None where nothing is."""
+    tree = material.node_tree
+    if not material.use_nodes or tree is None:
+        return None
+    for output in tree.nodes:
+        if output.bl_idname != 'ShaderNodeOutputMaterial':
+            continue
+        if output.inputs["Volume"].is_linked:
+            return "which has a volume"
+        if output.inputs["Displacement"].is_linked and compat.displaces(material):
+            return "which displaces it"
+    return "which may be seen through" if _lets_through(tree) else None
+
+
+def _lets_through(tree):
+    for node in tree.nodes:
+        if node.bl_idname in {'ShaderNodeBsdfTransparent', 'ShaderNodeHoldout'}:
+            return True
+        if node.bl_idname == 'ShaderNodeBsdfPrincipled':
+            alpha = node.inputs["Alpha"]
+            if alpha.is_linked or alpha.default_value < 1.0:
+                return True
+        if node.bl_idname == 'ShaderNodeGroup' and node.node_tree and _lets_through(node.node_tree):
+            return True
+    return False
