@@ -9,12 +9,16 @@ from .frame_ranges import parse_frames
 
 DISC_MASKS = (5, 9, 17, 33, 65)
 MOST_LINE_MASKS = 64
+MOST_SAMPLES = 65536
 MASK_BACKENDS = ("auto", "layers", "groups", "occlusion", "raycast")
 
 
 @dataclass
 class Arrangement:
-    """How the shadow masks lie on a light: `pair`, `line` or `disc`, and how many there are."""
+    """How the shadow masks lie on a light: `pair`, `line` or `disc`, and how many there are.
+
+    Or `trace`: no masks but the traced visibility, and how many samples a pixel it takes.
+    """
     kind: str = "disc"
     count: int = 9
 
@@ -39,7 +43,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parse_masks(text):
-    """`pair`, `line:K` with K from 2 to 64, `disc:K` with K of DISC_MASKS."""
+    """`pair`, `line:K` with K from 2 to 64, `disc:K` with K of DISC_MASKS, or `trace:N`."""
     kind, _, number = text.partition(":")
     if text == "pair":
         return Arrangement("pair", 2)
@@ -48,10 +52,13 @@ def parse_masks(text):
     if kind == "line" and number.isascii() and number.isdigit() \
             and 2 <= int(number) <= MOST_LINE_MASKS:
         return Arrangement("line", int(number))
+    if kind == "trace" and number.isascii() and number.isdigit() \
+            and 1 <= int(number) <= MOST_SAMPLES:
+        return Arrangement("trace", int(number))
     discs = [f"disc:{count}" for count in DISC_MASKS]
     raise UsageError(f"'{text}' is not an arrangement of masks (pair, line:2 to "
-                     f"line:{MOST_LINE_MASKS}, {', '.join(discs)})"
-                     f"{nearest(text, ['pair', 'line:5', *discs])}")
+                     f"line:{MOST_LINE_MASKS}, {', '.join(discs)}, trace:1 to trace:{MOST_SAMPLES})"
+                     f"{nearest(text, ['pair', 'line:5', *discs, 'trace:64'])}")
 
 
 def parse_backend(text):
@@ -97,7 +104,8 @@ def build_parser():
                              "renders and casts shadows)")
     parser.add_argument("--masks", type=parse_masks, default=Arrangement(), metavar="HOW",
                         help="pair, line:K, or disc:K with K 5, 9, 17, 33 or 65 (default: disc:9); "
-                             "thin shadows of wide lights need the larger discs")
+                             "thin shadows of wide lights need the larger discs; trace:N takes "
+                             "no masks but the light's own soft shadow, traced with N samples")
     parser.add_argument("--masks-by", type=parse_backend, default="auto", metavar="HOW",
                         help="auto, layers (a render a mask), groups (light groups), or by rays, "
                              "all masks in one sample: raycast (Blender 5.1 on) or occlusion; what "
@@ -106,7 +114,7 @@ def build_parser():
                         help="distance of the outermost masks from the light's centre in world "
                              "units, for a sun the tangent of the angle, or auto: from the "
                              "light's own size (default: auto)")
-    parser.add_argument("--truth", type=_whole_number("truth", 1, 65536), default=0,
+    parser.add_argument("--truth", type=_whole_number("truth", 1, MOST_SAMPLES), default=0,
                         metavar="SAMPLES", dest="truth_samples",
                         help="also trace each light at its real size with so many samples")
     parser.add_argument("--scale", type=_whole_number("scale", 1, 4), default=1, metavar="N",

@@ -5,7 +5,7 @@ from . import light_offset, mask_positions, vectors
 from .errors import ExportError
 from .light_state import (area_extents, new_truth_lamp, place_truth_lamp, read_light,
                           travel_direction)
-from .output_names import truth_layer
+from .output_names import traced_layer, truth_layer
 from .subject import Sphere
 
 
@@ -17,11 +17,17 @@ class LightRig:
         if not masked:
             return
         self._refuse_what_cannot_work()
-        self.masks = backends.masks_of(light, key, options.masks.count)
+        if options.masks.kind == "trace":
+            self._trace(data, traced_layer(key), options.masks.count)
+        else:
+            self.masks = backends.masks_of(light, key, options.masks.count)
         if options.truth_samples:
-            layer = truth_layer(key)
-            self.truth_lamps = [new_truth_lamp(light, layer, shadow) for shadow in (True, False)]
-            data.add_truth_layer(layer, *self.truth_lamps, options.truth_samples)
+            self._trace(data, truth_layer(key), options.truth_samples)
+
+    def _trace(self, data, layer, samples):
+        lamps = [new_truth_lamp(self.light, layer, shadow) for shadow in (True, False)]
+        self.truth_lamps += lamps
+        data.add_truth_layer(layer, *lamps, samples)
 
     def place(self, depsgraph, aim, radius):
         """Move the lamps to this frame's places; returns (light state, JSON entry).
@@ -37,9 +43,12 @@ class LightRig:
         entry = self._describe(state, travel, subject, evaluated)
         places = mask_positions.places_on_light(self.options.masks, travel, state.surface_axes)
         entry["axes"] = {"u": list(places.u_axis), "v": list(places.v_axis)}
-        if self.masked:
+        if self.masks:
             self._place_masks(state, travel, places, subject, entry)
-        if self.truth_lamps:
+        elif self.masked:
+            entry["traced"] = {"layer": traced_layer(self.key),
+                               "samples": self.options.masks.count}
+        if self.masked and self.options.truth_samples:
             entry["truth_layer"] = truth_layer(self.key)
             entry["truth_samples"] = self.options.truth_samples
         return state, entry
