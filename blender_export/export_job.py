@@ -46,7 +46,7 @@ class ExportJob:
         self.rigs = self._rigs(lights, backends)
         self.data.finish()
         self.writer, more = frame_image.shot_writer(scene, view_layer, self.data)
-        self.depth = LightDepth(scene, subjects, self.data.material, options.depth_size)
+        self.depth = LightDepth(self.data, subjects, options.depth_size)
         self.cameras = camera_view.SharpCameras()
         self.casters = CasterFiles(self.names.folder, self.names.before) if options.casters else None
         for note in notes + backends.notes + more:

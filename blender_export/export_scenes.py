@@ -4,15 +4,16 @@
 Data passes and masks need one sample at the pixel's centre, the beauty needs the artist's own
 samples and filter, and a pixel filter belongs to a scene. So there is a data scene beside the
 artist's, with one view layer for the data, one per mask and one per traced truth; and a writing
-scene whose compositor takes the layers of both and puts them into one multilayer EXR. A light's
-depth map is one more scene, seen from the light.
+scene whose compositor takes the layers of both and puts them into one multilayer EXR. The lights'
+depth maps are a layer of the data scene too, which keeps its geometry from render to render.
 """
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bpy
 
-from . import compat
+from . import compat, sight_nodes
 from .errors import ExportError
 
 DATA_PASSES = ("Normal", "Position", "Depth", "IndexOB", "IndexMA", "UV", "Vector", "DiffCol")
@@ -150,7 +151,7 @@ class DataScene:
         data.samples = 1
         enable_data_passes(data)
         self._lamps = {data.name: []}
-        self._sight_layer, self._sight_names = None, []
+        self._sight, self._sight_names = None, []
         self._group_layer = None
 
     @property
@@ -186,11 +187,12 @@ class DataScene:
         self._group_layer.samples = 1 << (2 * len(self._lamps["groups"]) - 1).bit_length()
         self.layers[name] = Reading(self._sampled, "groups", f"Combined_{group}", 0.0)
 
-    def add_sight_layer(self):
-        """The layer whose material writes masks into AOVs; returns the material."""
-        self._sight_layer = self._add_layer(self.scene, "sight", [], 1)
-        self._sight_layer.material_override = plain_material()
-        return self._sight_layer.material_override
+    def add_sight_layer(self, ask):
+        """The layer whose material writes masks into AOVs; returns the material (see sight_nodes)."""
+        self._sight = sight_nodes.SightMaterial(plain_material(), ask)
+        layer = self._add_layer(self.scene, "sight", [], 1)
+        layer.material_override = self._sight.material
+        return self._sight
 
     def add_sight_mask(self, name):
         """One more mask of that layer; returns the name of its AOV."""
@@ -199,8 +201,42 @@ class DataScene:
         self.layers[name] = Reading(self.scene, "sight", aov)
         return aov
 
+    @contextmanager
+    def depth_alone(self, camera, size):
+        """Let the scene render nothing but the depth layer, through another camera."""
+        render, shot_camera = self.scene.render, self.scene.camera
+        kept = {name: getattr(render, name) for name in
+                ("resolution_x", "resolution_y", "pixel_aspect_x", "pixel_aspect_y")}
+        self._render_only(lambda name: name == "depth")
+        self._set_sight(0.0)
+        self.scene.camera = camera
+        render.resolution_x = render.resolution_y = size
+        render.pixel_aspect_x = render.pixel_aspect_y = 1.0
+        try:
+            yield
+        finally:
+            for name, value in kept.items():
+                setattr(render, name, value)
+            self.scene.camera = shot_camera
+            self._set_sight(1.0)
+            self._render_only(lambda name: name != "depth")
+
+    def _render_only(self, wanted):
+        for view_layer in self.scene.view_layers:
+            view_layer.use = wanted(view_layer.name)
+
+    def _set_sight(self, value):
+        if self._sight:
+            self._sight.switch(value)
+
     def finish(self):
         """Keep every lamp out of all layers but its own."""
+        depth = self._add_layer(self.scene, "depth", [], 1)
+        depth.use_pass_z = True
+        if self._sight:
+            # The material of the layer before it: with another the geometry would be read again.
+            depth.material_override = self._sight.material
+        self._render_only(lambda name: name != "depth")
         lit = {name: link_collection(self._scene_of(name), name, lamps)
                for name, lamps in self._lamps.items() if lamps}
         for scene in self.scenes:

@@ -68,7 +68,7 @@ class MaskBackends:
 
     def _sight_material(self):
         if self._sight is None:
-            self._sight = sight_nodes.SightMaterial(self.data.add_sight_layer(), self._ask)
+            self._sight = self.data.add_sight_layer(self._ask)
         return self._sight
 
     def _note(self, note):

@@ -23,11 +23,11 @@ import bpy
 
 from . import compat
 from .export_scenes import PREFIX, exact_scene
+from .sight_nodes import LONG
 
 # Seeds with a small turn, in the samplers of 3.4 and of 4.x.
 SEEDS = (265, 1492)
 LARGEST_TURN = 0.02
-LONG = 1e9        # length of a normal beside which the part along T is nothing
 _PIXELS = 512
 
 

@@ -15,9 +15,9 @@ import math
 
 from mathutils import Vector
 
-from .sampler_probe import LONG
 from .shader_words import ShaderWords
 
+LONG = 1e9         # length of a normal beside which the part of a ray along T is nothing
 GRAZING = 1e-3     # sine of the angle at which a bent ray leaves its face
 SHORT = 1.0 - 1e-5  # rays end this share of the way, so that what touches the light does not count
 FAR = 1e7          # length of a ray to a sun
@@ -32,12 +32,19 @@ class SightMaterial:
         `toward` is a vector socket, `length` how many of it the ray may go, and the ray may be
         left out where the socket `wanted` is 0.
         """
-        self.words, self.ask = ShaderWords(material.node_tree), ask
+        self.material, self.ask = material, ask
+        self.words = ShaderWords(material.node_tree)
+        self._on = material.node_tree.nodes.new('ShaderNodeValue').outputs[0]
+        self.switch(1.0)
+
+    def switch(self, value):
+        """With 0 no rays are sent, and all places count as hidden."""
+        self._on.default_value = value
 
     def add(self, kind, aov):
         """One more place on a light of `kind`, written into the AOV; returns its Place."""
         place = Place(self.words, kind)
-        wanted = place.wanted
+        wanted = self.words.number('MULTIPLY', place.wanted, self._on)
         self.words.write(self.words.number('MULTIPLY', wanted, self.ask(
             self.words, place.toward, place.length, wanted)), aov)
         return place
@@ -74,15 +81,15 @@ class Place:
         return words.number('GREATER_THAN', along, self.cosine.outputs[0])
 
 
-def ask_raycast(words, toward, length, _wanted):
+def ask_raycast(words, toward, length, wanted):
+    """The same by the Raycast node, which leaves the length to us and wants a unit direction."""
     node = words.tree.nodes.new('ShaderNodeRaycast')
-    reach = words.length(toward) if length == SHORT else None
+    reach = words.number('MULTIPLY', wanted, length)
+    if length == SHORT:
+        reach = words.number('MULTIPLY', reach, words.length(toward))
     words.tree.links.new(words.position, node.inputs["Position"])
     words.tree.links.new(words.unit(toward), node.inputs["Direction"])
-    if reach is None:
-        node.inputs["Length"].default_value = length
-    else:
-        words.tree.links.new(words.number('MULTIPLY', reach, length), node.inputs["Length"])
+    words.tree.links.new(reach, node.inputs["Length"])
     return words.number('SUBTRACT', 1.0, node.outputs["Is Hit"])
 
 
