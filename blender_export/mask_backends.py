@@ -56,6 +56,8 @@ class MaskBackends:
             if not compat.has_raycast_node():
                 return mask_obstacles.Obstacle("this Blender has no Raycast node (5.1 has)", False)
             self._ask = sight_nodes.ask_raycast
+            for item in self.objects:
+                compat.hide_from_raycast(item, not item.visible_shadow)
             return None
         turn = sampler_probe.measure_turn()
         if turn is None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from mathutils import Vector
 
-from . import compat, sight_nodes
+from . import compat, mask_materials, sight_nodes
 
 ROUND_SUN = 0.02   # radians to spare round the masks of a sun
 
@@ -43,35 +43,6 @@ def _of_object(by, item):
     if by == "raycast" and not item.visible_shadow and not compat.can_hide_from_raycast():
         return "casts no shadow, which the Raycast node learns in Blender 5.2"
     for slot in item.material_slots:
-        words = slot.material and of_material(slot.material)
-        if words:
-            return f"has the material '{slot.material.name}', {words}"
+        if slot.material and mask_materials.blocks_otherwise(slot.material):
+            return f"has the material '{slot.material.name}', which has holes, displacement or fog"
     return None
-
-
-def of_material(material):
-    """What is more to the material than an opaque surface, in words; None where nothing is."""
-    tree = material.node_tree
-    if not material.use_nodes or tree is None:
-        return None
-    for output in tree.nodes:
-        if output.bl_idname != 'ShaderNodeOutputMaterial':
-            continue
-        if output.inputs["Volume"].is_linked:
-            return "which has a volume"
-        if output.inputs["Displacement"].is_linked and compat.displaces(material):
-            return "which displaces it"
-    return "which may be seen through" if _lets_through(tree) else None
-
-
-def _lets_through(tree):
-    for node in tree.nodes:
-        if node.bl_idname in {'ShaderNodeBsdfTransparent', 'ShaderNodeHoldout'}:
-            return True
-        if node.bl_idname == 'ShaderNodeBsdfPrincipled':
-            alpha = node.inputs["Alpha"]
-            if alpha.is_linked or alpha.default_value < 1.0:
-                return True
-        if node.bl_idname == 'ShaderNodeGroup' and node.node_tree and _lets_through(node.node_tree):
-            return True
-    return False

@@ -103,7 +103,7 @@ class MaskBackends(BlenderCase):
 leaf = tools.material("Leaf", (0, 1, 0))
 leaf.node_tree.nodes["Principled BSDF"].inputs["Alpha"].default_value = 0.5
 box("Tree", (2, 2, 0), (3, 3, 1), leaf)
-""", "object 'Tree' has the material 'Leaf', which may be seen through")
+""", "object 'Tree' has the material 'Leaf', which has holes")
 
     def test_displacement_falls_back(self):
         self.assert_layers("""
@@ -116,7 +116,7 @@ if hasattr(bark, "displacement_method"):
 else:
     bark.cycles.displacement_method = 'DISPLACEMENT'
 box("Tree", (2, 2, 0), (3, 3, 1), bark)
-""", "which displaces it")
+""", "'Bark', which has holes, displacement")
 
     def test_hair_and_volumes_fall_back(self):
         self.assert_layers("""
