@@ -50,7 +50,7 @@ class ExportJob:
         notes += mask_materials.keep_what_blocks(
             [layer for made in bpy.data.scenes if made != scene for layer in made.view_layers],
             self.data.material, shot.all_geometry())
-        self.cameras = camera_view.SharpCameras()
+        self.cameras = camera_view.SharpCameras(self.data.uses_rays)
         self.casters = CasterFiles(self.names.folder, self.names.before) if options.casters else None
         for note in notes + backends.notes + more:
             self.say(f"note: {note}")

@@ -158,6 +158,11 @@ class DataScene:
     def scenes(self):
         return [scene for scene in (self.scene, self._sampled) if scene]
 
+    @property
+    def uses_rays(self):
+        """Whether some masks are taken by rays of a shader node."""
+        return self._sight is not None
+
     def add_shadow_layer(self, name, lamp):
         """A view layer lit by `lamp` alone, a point, that holds whether each pixel sees it."""
         layer = self._add_layer(self.scene, name, [lamp], 1)
