@@ -109,6 +109,4 @@ LayerPlane repeatLayer(LayerSources& sources) { return {std::move(sources.repeat
 
 LayerPlane surfaceLayer(LayerSources& sources) { return {{}, std::move(sources.surfaces)}; }
 
-LayerPlane upLayer(LayerSources& sources) { return {sources.planes.normal.z.clone(), {}}; }
-
 }  // namespace kagefude

@@ -24,7 +24,6 @@ LayerPlane outlineLayer(LayerSources&);
 LayerPlane angleLayer(LayerSources&);
 LayerPlane repeatLayer(LayerSources&);
 LayerPlane surfaceLayer(LayerSources&);
-LayerPlane upLayer(LayerSources&);
 
 /// When a layer's values are there.
 enum class LayerStage {
@@ -61,8 +60,6 @@ inline constexpr std::array outputLayers{
                      "repeats of the strip along the stroke", repeatLayer},
     OutputLayerEntry{"surface.id", PixelType::uint, LayerStage::frame,
                      "number of the smooth surface, 0 the background", surfaceLayer},
-    OutputLayerEntry{"surface.up", PixelType::single, LayerStage::frame,
-                     "the normal's share along the world's up", upLayer},
 };
 
 /// Bytes a pixel.

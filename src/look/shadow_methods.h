@@ -25,7 +25,6 @@ LightVisibility volumeShadow(const ShadowWork&);
 LightVisibility placesShadow(const ShadowWork&);
 LightVisibility planarShadow(const ShadowWork&);
 LightVisibility blobShadow(const ShadowWork&);
-LightVisibility slopeShadow(const ShadowWork&);
 
 enum class ShadowMethod {
   automatic,
@@ -39,8 +38,7 @@ enum class ShadowMethod {
   volume,
   places,
   planar,
-  blob,
-  slope
+  blob
 };
 
 /// Hard masks that were rendered with the frame.
@@ -150,9 +148,6 @@ inline constexpr std::array shadowMethods{
                       blobShadow,
                       Smoothing::whereAsked,
                       {.camera = true, .receiver = true}},
-    ShadowMethodEntry{ShadowMethod::slope, "slope",
-                      "dark where a surface leans away from the world's up", slopeShadow,
-                      Smoothing::whereAsked},
 };
 
 constexpr const ShadowMethodEntry& entryOf(ShadowMethod method) {

@@ -37,11 +37,10 @@ std::string errorOf(const std::vector<std::string>& layers) {
 
 TEST(OutputLayers, EveryLightHasItsOwn) {
   const std::vector<std::string> names = layerNames(lights);
-  for (const char* name :
-       {"visibility.Key", "visibility.Fill", "confidence.Key", "coverage.Fill", "brush.tone",
-        "brush.angle", "brush.repeat", "outline", "surface.id", "surface.up"})
+  for (const char* name : {"visibility.Key", "visibility.Fill", "confidence.Key", "coverage.Fill",
+                           "brush.tone", "brush.angle", "brush.repeat", "outline", "surface.id"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
-  EXPECT_EQ(names.size(), 11u);  // no coverage.Key: its method brings none
+  EXPECT_EQ(names.size(), 10u);  // no coverage.Key: its method brings none
 }
 
 TEST(OutputLayers, NamesAndGlobsThatMatchAreTaken) {
@@ -73,7 +72,6 @@ TEST(OutputLayers, EveryRowsFunctionTakesItsPlane) {
   FramePlanes planes;
   planes.width = 3;
   planes.height = 2;
-  planes.normal = Vec3Plane(3, 2);
   LayerSources sources{planes};
   sources.visibility = Floats(3, 2, 0.25f);
   sources.tone = Floats(3, 2, 0.5f);
@@ -88,7 +86,7 @@ TEST(OutputLayers, EveryRowsFunctionTakesItsPlane) {
   takeLayers(all, LayerStage::frame, sources, result);
   std::map<std::string, const LayerPlane*> taken;
   for (const NamedPlane& layer : result.layers) taken[layer.name] = &layer.plane;
-  ASSERT_EQ(taken.size(), 9u);
+  ASSERT_EQ(taken.size(), 8u);
   EXPECT_EQ(taken.at("coverage.Fill")->floats(2, 1), 0.75f);  // before visibility moves away
   EXPECT_EQ(taken.at("visibility.Fill")->floats(2, 1), 0.25f);
   EXPECT_EQ(taken.at("confidence.Fill")->floats(2, 1), 1.0f);
