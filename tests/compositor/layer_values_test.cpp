@@ -16,16 +16,15 @@ using testing::TestFrame;
 std::vector<std::string> namesOf(const FrameResult& result) {
   std::vector<std::string> names;
   for (const NamedPlane& layer : result.layers) names.push_back(layer.name);
-  if (!result.surfaceId.empty()) names.push_back("surface.id");
   std::sort(names.begin(), names.end());
   return names;
 }
 
 std::string asking(const std::string& layer) { return "output.layers = [\"" + layer + "\"]\n"; }
 
-class OutputLayers : public ::testing::Test {
+class LayerValues : public ::testing::Test {
  protected:
-  OutputLayers() { frame.addSun("Sun", {0, 0, -1}); }
+  LayerValues() { frame.addSun("Sun", {0, 0, -1}); }
   Floats layer(const std::string& name, const std::string& look = "") {
     FrameResult result = frame.comp(asking(name) + look);
     return TestFrame::layer(result, name);
@@ -38,9 +37,9 @@ class OutputLayers : public ::testing::Test {
   MapFrame frame;
 };
 
-TEST_F(OutputLayers, NoneUnlessAskedFor) { EXPECT_TRUE(namesOf(frame.comp("")).empty()); }
+TEST_F(LayerValues, NoneUnlessAskedFor) { EXPECT_TRUE(namesOf(frame.comp("")).empty()); }
 
-TEST_F(OutputLayers, GlobsTakeAllThatTheyMatch) {
+TEST_F(LayerValues, GlobsTakeAllThatTheyMatch) {
   EXPECT_EQ(namesOf(frame.comp(asking("brush.*"))),
             (std::vector<std::string>{"brush.angle", "brush.repeat", "brush.tone"}));
   frame.addSun("Rim", {1, 0, -1});
@@ -48,12 +47,12 @@ TEST_F(OutputLayers, GlobsTakeAllThatTheyMatch) {
             (std::vector<std::string>{"confidence.Rim", "visibility.Rim"}));
 }
 
-TEST_F(OutputLayers, VisibilityOfALightWithoutShadow) {
+TEST_F(LayerValues, VisibilityOfALightWithoutShadow) {
   expectHalves(layer("visibility.Sun"), 1, 1);
   expectHalves(layer("confidence.Sun"), 1, 1);
 }
 
-TEST_F(OutputLayers, CoverageAndVisibilityUnderALid) {
+TEST_F(LayerValues, CoverageAndVisibilityUnderALid) {
   frame.addLid();
   const std::string look = "shadow.method = \"coverage\"\n";
   expectHalves(layer("coverage.Sun", look), 1, 0);
@@ -61,7 +60,7 @@ TEST_F(OutputLayers, CoverageAndVisibilityUnderALid) {
   expectHalves(layer("confidence.Sun", look), 1, 1);
 }
 
-TEST_F(OutputLayers, EveryMethodOfCastersShadesUnderTheLid) {
+TEST_F(LayerValues, EveryMethodOfCastersShadesUnderTheLid) {
   frame.addLid();
   for (const char* const method : {"coverage", "volume", "places"}) {
     const Floats seen =
@@ -71,7 +70,7 @@ TEST_F(OutputLayers, EveryMethodOfCastersShadesUnderTheLid) {
   }
 }
 
-TEST_F(OutputLayers, VisibilityAndConfidenceFromMasks) {
+TEST_F(LayerValues, VisibilityAndConfidenceFromMasks) {
   // Five places on the light; all see the right half, none the left: hard, and sure.
   frame.addMasks("disc", {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}},
                  [](int x, int, size_t) { return x >= MapFrame::side / 2; });
@@ -87,7 +86,7 @@ TEST_F(OutputLayers, VisibilityAndConfidenceFromMasks) {
   }
 }
 
-TEST_F(OutputLayers, VisibilityFallsAcrossAPairsPenumbra) {
+TEST_F(LayerValues, VisibilityFallsAcrossAPairsPenumbra) {
   // One place sees from column 2 on, the other from column 6 on.
   frame.addMasks("pair", {{1, 0}, {-1, 0}},
                  [](int x, int, size_t k) { return x >= (k == 0 ? 2 : 6); });
@@ -98,7 +97,7 @@ TEST_F(OutputLayers, VisibilityFallsAcrossAPairsPenumbra) {
   EXPECT_NEAR(seen(3, 4) + seen(4, 4), 1.0f, 1e-3f) << "the penumbra's middle is half lit";
 }
 
-TEST_F(OutputLayers, BrushToneIsShadeAndShadowInOne) {
+TEST_F(LayerValues, BrushToneIsShadeAndShadowInOne) {
   for (int y = 0; y < MapFrame::side; ++y)
     for (int x = 0; x < MapFrame::side; ++x) frame.setVector("Normal", x, y, {0.6f, 0, 0.8f});
   frame.addLid();
@@ -107,7 +106,7 @@ TEST_F(OutputLayers, BrushToneIsShadeAndShadowInOne) {
   EXPECT_NEAR(tone(6, 4), 0.8f, 1e-6f);
 }
 
-TEST_F(OutputLayers, AngleAndRepeatGoRoundTheReferencePoint) {
+TEST_F(LayerValues, AngleAndRepeatGoRoundTheReferencePoint) {
   const std::string look =
       "[brush]\nmapping = \"polar\"\n[[style]]\nobject = \"Thing\"\nreference = [0, 0, 0]\n";
   const Floats angle = layer("brush.angle", look);
@@ -123,7 +122,7 @@ TEST_F(OutputLayers, AngleAndRepeatGoRoundTheReferencePoint) {
   EXPECT_GT(repeat(0, 0), repeat(3, 3));
 }
 
-TEST_F(OutputLayers, OutlineRunsBetweenObjects) {
+TEST_F(LayerValues, OutlineRunsBetweenObjects) {
   frame.addOther();
   const Floats lines = layer("outline");
   EXPECT_GT(lines(3, 4) + lines(4, 4), 0.5f);
@@ -131,16 +130,18 @@ TEST_F(OutputLayers, OutlineRunsBetweenObjects) {
   EXPECT_EQ(lines(7, 4), 0.0f);
 }
 
-TEST_F(OutputLayers, SurfaceIdsPartTheObjectsAndLeaveTheBackground) {
+TEST_F(LayerValues, SurfaceIdsPartTheObjectsAndLeaveTheBackground) {
   frame.addOther();
   frame.clearUpperHalf();
   const FrameResult result = frame.comp(asking("surface.id"));
-  EXPECT_EQ(result.surfaceId(0, 0), 0u);
-  EXPECT_EQ(result.surfaceId(0, 5), 1u);
-  EXPECT_EQ(result.surfaceId(7, 5), 2u);
+  ASSERT_EQ(namesOf(result), std::vector<std::string>{"surface.id"});
+  const Labels& ids = result.layers[0].plane.labels;
+  EXPECT_EQ(ids(0, 0), 0u);
+  EXPECT_EQ(ids(0, 5), 1u);
+  EXPECT_EQ(ids(7, 5), 2u);
 }
 
-TEST_F(OutputLayers, AreWrittenWithTheirTypesBesideThePicture) {
+TEST_F(LayerValues, AreWrittenWithTheirTypesBesideThePicture) {
   const std::string look = "output.layers = [\"visibility.*\", \"surface.id\"]\n";
   const FrameResult result = frame.comp(look);
   const Look read = readLook(frame.folder / "look.toml", {});
@@ -155,7 +156,7 @@ TEST_F(OutputLayers, AreWrittenWithTheirTypesBesideThePicture) {
   EXPECT_EQ(readIndices(written, "surface.id")(3, 3), 1u);
 }
 
-TEST_F(OutputLayers, PassthroughCarriesEveryOtherChannel) {
+TEST_F(LayerValues, PassthroughCarriesEveryOtherChannel) {
   const FrameResult result = frame.comp("[output]\npassthrough = true\ncolour = \"float\"\n");
   const Look read = readLook(frame.folder / "look.toml", {});
   const FramePlan plan = planFrame(read, frame.folder / "frame.exr", 1);
