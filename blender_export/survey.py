@@ -55,16 +55,19 @@ def aim_of_light(measured, samples, name):
 
 def describe_shot(measured, samples, lights, names):
     """The `shot` of the JSON, the same in every frame."""
-    def heard(light):
-        return [sample.lights[names[light]].irradiance_at(center)
-                for sample, center in zip(samples, measured.centers)]
+    def describe(light):
+        states = [sample.lights[names[light]] for sample in samples]
+        given = [state.irradiance_at(center) for state, center in zip(states, measured.centers)]
+        return {"name": names[light], "irradiance": sum(given) / len(given),
+                "largest_irradiance": max(given),
+                "largest_power": max(state.power for state in states),
+                "largest_on_axis": max(state.on_axis_at(center)
+                                       for state, center in zip(states, measured.centers))}
     return {
         "first": measured.first, "last": measured.last,
         "subject": {"center": list(measured.subject.center), "radius": measured.subject.radius},
         "distance": measured.distance,
-        "lights": [{"name": names[light], "irradiance": sum(values) / len(values),
-                    "largest_irradiance": max(values)}
-                   for light, values in ((light, heard(light)) for light in lights)]}
+        "lights": [describe(light) for light in lights]}
 
 
 def _sample(scene, depsgraph, lights, names):
@@ -84,5 +87,10 @@ def _light_sample(evaluated):
 
     def irradiance_at(point):
         return irradiance(state.kind, power, state.position, state.direction, state.cone, point)
+
+    def on_axis_at(point):
+        way = vectors.subtract(point, state.position)
+        axis = vectors.normalize(way, state.direction)
+        return irradiance(state.kind, power, state.position, axis, None, point)
     return whole_shot.LightSample(state.position, power > 0.0, state.casts_shadow,
-                                  state.unknown_node, irradiance_at)
+                                  state.unknown_node, power, irradiance_at, on_axis_at)

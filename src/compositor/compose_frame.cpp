@@ -61,6 +61,20 @@ void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageS
   sink.labels("surfaces", surfaces);
 }
 
+void noteBadPixels(const FramePlanes& planes, std::vector<std::string>& warnings) {
+  const auto note = [&](size_t count, const char* what, const char* taken) {
+    if (count)
+      warnings.push_back(fmt::format("{} {} NaN or Inf in {} and {} taken as {}",
+                                     count == 1 ? "1 pixel" : fmt::format("{} pixels", count),
+                                     count == 1 ? "holds" : "hold", what, count == 1 ? "is" : "are",
+                                     taken));
+  };
+  note(planes.badPixels, "Position or Normal", "background");
+  note(planes.badBeauty, "the beauty", "black");
+  note(planes.badAlbedo, "the albedo", "black");
+  note(planes.badCoverage, "the coverage of Cryptomatte", "wholly its first id");
+}
+
 }  // namespace
 
 FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePlan& plan,
@@ -70,10 +84,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   if (planes.casting)
     result.warnings.insert(result.warnings.end(), planes.casting->warnings.begin(),
                            planes.casting->warnings.end());
-  if (planes.badPixels)
-    result.warnings.push_back(
-        fmt::format("{} pixels hold NaN or Inf in Position or Normal and are taken as background",
-                    planes.badPixels));
+  noteBadPixels(planes, result.warnings);
   Labels surfaces =
       labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces);
   lap(clock, "surfaces");
@@ -93,7 +104,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   }
   multiplyAlbedo(planes, styled, brush);
   blendEdges(plan, planes, brush);
-  Floats outline = drawStyleOutlines(look, plan, planes, styled, asksFor(look, "outline"), brush);
+  Floats outline = drawStyleOutlines(plan, planes, styled, asksFor(look, "outline"), brush);
   lap(clock, "edges and outlines");
   if (sink && !outline.empty()) sink->number("outline", outline);
   if (look.output.background == Background::beauty && !planes.beauty.empty())

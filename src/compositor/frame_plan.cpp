@@ -99,6 +99,18 @@ void planMaterials(const AovNames& names, FramePlan& plan) {
       plan.materialNames.emplace(material.cryptoId, material.name);
 }
 
+/// Whether two lights are so alike that another one may lead the strokes in the next frame.
+bool leadMayChange(const Look& look, const FramePlan& plan) {
+  if (!plan.sidecar || plan.sidecar->shot || plan.lights.size() < 2) return false;
+  const bool allChosen = !look.styles.empty() &&
+                         std::all_of(look.styles.begin(), look.styles.end(),
+                                     [](const StyleLook& s) { return !s.style.light.empty(); });
+  std::vector<float> leads;
+  for (const FrameLight& light : plan.lights) leads.push_back(light.weight.lead);
+  std::sort(leads.rbegin(), leads.rend());
+  return !allChosen && leads[1] > 0.5f * leads[0];
+}
+
 }  // namespace
 
 std::string FramePlan::objectName(uint32_t id) const {
@@ -139,6 +151,10 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   plan.hasCasters = plan.sidecar && !readCasterEntries(plan.sidecar->path).empty();
   plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame,
                              plan.hasCasters);
+  if (leadMayChange(look, plan))
+    plan.warnings.push_back(
+        "the JSON says nothing of the whole shot, so the light that is heaviest in each frame "
+        "leads its strokes; export the shot again, or name one with style.light");
   checkLayers(look, plan.lights);
   return plan;
 }

@@ -33,6 +33,9 @@ struct FramePlanes {
   std::vector<LightPlanes> lights;              ///< in the order of the plan's lights
   std::shared_ptr<const CastingScene> casting;  ///< null when no light needs it
   size_t badPixels = 0;                         ///< pixels whose NaN or Inf made them background
+  size_t badBeauty = 0;    ///< pixels of the beauty that hold NaN or Inf, taken as black
+  size_t badAlbedo = 0;    ///< the same of the albedo
+  size_t badCoverage = 0;  ///< pixels whose Cryptomatte coverage is NaN or Inf
 };
 
 }  // namespace kagefude

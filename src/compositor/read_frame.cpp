@@ -15,6 +15,7 @@ namespace {
 struct RequestedIds {
   CryptomattePlanes matte;
   Floats index;
+  Labels whole;  ///< an index pass of whole numbers, which a float would round above 2^24
 };
 
 void requestVector(ChannelReader& reader, const Aov& aov, Vec3Plane& planes) {
@@ -23,16 +24,27 @@ void requestVector(ChannelReader& reader, const Aov& aov, Vec3Plane& planes) {
   reader.floats(aov.channels.at(2), planes.z);
 }
 
+bool isWhole(const ImageFile& file, const std::string& channelName) {
+  const Channel* channel = file.findChannel(channelName);
+  return channel && channel->type == PixelType::uint;
+}
+
 void requestIds(ChannelReader& reader, const Aov& aov, IdSource source, RequestedIds& ids) {
   constexpr int dominantRanks = 2;  // ranks come by falling coverage, but for filtered files
   if (source == IdSource::cryptomatte)
     ids.matte = requestCryptomatte(reader, aov.name, dominantRanks);
+  else if (isWhole(reader.file(), aov.channels.at(0)))
+    reader.bits(aov.channels.at(0), ids.whole);
   else
     reader.floats(aov.channels.at(0), ids.index);
 }
 
-Labels idsFrom(const RequestedIds& ids, IdSource source) {
-  return source == IdSource::cryptomatte ? dominantIds(ids.matte) : roundIndices(ids.index);
+Labels idsFrom(RequestedIds& ids, IdSource source) {
+  if (source == IdSource::cryptomatte) {
+    clearNonFiniteCoverage(ids.matte.coverage);
+    return dominantIds(ids.matte);
+  }
+  return ids.whole.empty() ? roundIndices(ids.index) : std::move(ids.whole);
 }
 
 Bytes toMask(View<const float> values) {
@@ -108,6 +120,9 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   };
   if (std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene))
     planes.casting = std::make_shared<const CastingScene>(readCastingScene(plan));
+  planes.badBeauty = clearNonFiniteColour(planes.beauty, planes.alpha.view());
+  planes.badAlbedo = clearNonFiniteColour(planes.albedo);
+  planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
   return planes;

@@ -89,6 +89,17 @@ AreaShape readArea(const JsonPlace& json) {
           json["half_v"].number(0, large)};
 }
 
+ShotLight readShotLight(const JsonPlace& json) {
+  ShotLight light{json["name"].name(),
+                  json["irradiance"].number(0, large),
+                  json["largest_irradiance"].number(0, large),
+                  {},
+                  {}};
+  if (json.has("largest_power")) light.largestPower = json["largest_power"].number(0, large);
+  if (json.has("largest_on_axis")) light.largestOnAxis = json["largest_on_axis"].number(0, large);
+  return light;
+}
+
 WholeShot readShot(const JsonPlace& json) {
   WholeShot shot;
   shot.first = json["first"].integer(-mostFrames, mostFrames);
@@ -97,8 +108,7 @@ WholeShot readShot(const JsonPlace& json) {
   shot.subjectRadius = json["subject"]["radius"].number(0, large);
   shot.distance = json["distance"].number(0, large);
   for (const JsonPlace& light : json["lights"].list(0, mostLights))
-    shot.lights.push_back({light["name"].name(), light["irradiance"].number(0, large),
-                           light["largest_irradiance"].number(0, large)});
+    shot.lights.push_back(readShotLight(light));
   checkNames(json["lights"], shot.lights);
   return shot;
 }

@@ -96,8 +96,10 @@ struct SidecarMaterial {
 /// What a light gives over the whole shot: luminance that arrives at the subject, facing it.
 struct ShotLight {
   std::string name;
-  double irradiance = 0;         ///< mean; watts per square metre
-  double largestIrradiance = 0;  ///< in any frame that was looked at
+  double irradiance = 0;                ///< mean; watts per square metre
+  double largestIrradiance = 0;         ///< in any frame that was looked at
+  std::optional<double> largestPower;   ///< luminance of energy times color, in any such frame
+  std::optional<double> largestOnAxis;  ///< irradiance, were the subject on the light's axis
 };
 
 /// What holds for the whole shot, the same beside each of its frames.
