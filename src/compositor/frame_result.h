@@ -18,7 +18,8 @@ struct FrameResult {
   Vec3Plane colour;
   Floats alpha;
   std::vector<NamedPlane> layers;
-  Labels surfaceId;  ///< empty unless asked for
+  Labels surfaceId;                 ///< empty unless asked for
+  std::vector<bool> fittingStyles;  ///< each style of the look: whether it fits something seen
   std::vector<std::string> warnings;
 };
 

@@ -75,18 +75,31 @@ CompBatch::CompBatch(const Look& look, CompRequest request)
       strips_(look, colour_),
       common_(commonFingerprint(look, colour_)),
       warnings_(jobs_.size()),
-      thumbnails_(jobs_.size()) {
+      thumbnails_(jobs_.size()),
+      uses_(jobs_.size()) {
   if (jobs_.empty()) return;
   try {
-    planFrame(look_, jobs_.front().inputs.front(), jobs_.front().frame);
+    planJob(jobs_.front());
   } catch (const InputError&) {
     if (!request_.skipBadFrames) throw;
   }
 }
 
+FramePlan CompBatch::planJob(const FrameJob& job) const {
+  FramePlan plan = planFrame(look_, job.inputs.front(), job.frame, job.view);
+  const bool oneFile = !job.view.empty() && !request_.plan.inputs.front().hasView();
+  if (oneFile && plan.image.views.empty())
+    throw InputError(fmt::format(
+        "{} holds one view and does not say which, so it cannot be made for {}; put %V into the "
+        "input's name, or leave it out of the output's",
+        plan.image.path.string(), job.view));
+  return plan;
+}
+
 Fingerprint CompBatch::fingerprint(const FrameJob& job) const {
   Fingerprint print = common_;
   print.add("frame", int64_t{job.frame});
+  if (!job.view.empty()) print.add("view", job.view);
   for (const auto& input : job.inputs)
     print.addFile("input", input).addFile("sidecar", sidecarPath(input));
   return print;
@@ -95,7 +108,7 @@ Fingerprint CompBatch::fingerprint(const FrameJob& job) const {
 bool CompBatch::isUpToDate(const FrameJob& job) const {
   try {
     Fingerprint print = fingerprint(job);
-    addDepthMaps(planFrame(look_, job.inputs.front(), job.frame), print);
+    addDepthMaps(planJob(job), print);
     if (openImage(job.outputs.front()).text(kFingerprintAttribute) != print.hex()) return false;
     for (size_t i = 1; i < job.outputs.size(); ++i)
       if (readPngText(job.outputs[i], kFingerprintAttribute) != print.hex()) return false;
@@ -120,7 +133,7 @@ CompBatch::Read CompBatch::read(size_t index) const {
   const FrameJob& job = jobs_[index];
   if (job.missing) throw InputError(fmt::format("{} is not there", job.missing->string()));
   Fingerprint print = fingerprint(job);
-  FramePlan plan = planFrame(look_, job.inputs.front(), job.frame);
+  FramePlan plan = planJob(job);
   addDepthMaps(plan, print);
   FramePlanes planes = readFramePlanes(plan);
   return {std::move(plan), std::move(planes), print.hex()};
@@ -129,6 +142,7 @@ CompBatch::Read CompBatch::read(size_t index) const {
 CompBatch::Composed CompBatch::compose(size_t index, Read input) {
   FrameResult result = composeFrame(look_, strips_, input.plan, std::move(input.planes));
   warnings_[index] = result.warnings;
+  uses_[index] = lookUse(look_, input.plan, result, result.fittingStyles);
   if (request_.thumbnails) thumbnails_[index] = frameThumbnail(look_, colour_, result.colour);
   return {std::move(input.plan), std::move(result), std::move(input.fingerprint)};
 }
@@ -145,6 +159,13 @@ void CompBatch::write(size_t index, Composed output) const {
   writeFrame(look_, output.plan, output.result, paths.front(), attributes);
 }
 
+std::vector<std::string> CompBatch::unused() const {
+  if (keptSome_) return {};
+  LookUse all;
+  for (const LookUse& use : uses_) all.add(use);
+  return unusedEntries(look_, all);
+}
+
 BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame) {
   removeLeftoversOf(jobs_);
   Stages<Read, Composed> stages;
@@ -152,8 +173,7 @@ BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame)
   stages.compute = [this](size_t i, Read input) { return compose(i, std::move(input)); };
   stages.write = [this](size_t i, Composed output) { write(i, std::move(output)); };
   stages.memory = [this](size_t i) {
-    return frameMemory(look_, planFrame(look_, jobs_[i].inputs.front(), jobs_[i].frame),
-                       jobs_[i].outputs.size() > 1);
+    return frameMemory(look_, planJob(jobs_[i]), jobs_[i].outputs.size() > 1);
   };
   stages.isDone = [this](size_t i) { return isDone(i); };
   BatchOptions options;
@@ -162,6 +182,7 @@ BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame)
   options.skipBadFrames = request_.skipBadFrames;
   options.stop = request_.stop;
   options.onFrame = [&](const FrameEvent& event) {
+    keptSome_ = keptSome_ || event.outcome == FrameOutcome::kept;
     onFrame({&jobs_[event.index], event, std::move(warnings_[event.index]),
              std::move(thumbnails_[event.index])});
   };

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "colour/colour.h"
+#include "compositor/frame_plan.h"
+#include "compositor/look_use.h"
 #include "compositor/strip_set.h"
 #include "look/look.h"
 #include "sequence/batch.h"
@@ -45,12 +47,16 @@ class CompBatch {
   CompBatch(const Look& look, CompRequest request);
 
   const std::vector<FrameJob>& jobs() const { return jobs_; }
+  /// What of the look fitted nothing in all frames, a sentence each; after run(). Empty where
+  /// frames were kept, for what these show is not known.
+  std::vector<std::string> unused() const;
   /// Runs all jobs in the current TBB arena; `onFrame` is never called twice at a time.
   BatchResult run(const std::function<void(const CompEvent&)>& onFrame);
 
  private:
   struct Read;
   struct Composed;
+  FramePlan planJob(const FrameJob& job) const;
   Read read(size_t index) const;
   Composed compose(size_t index, Read input);
   void write(size_t index, Composed output) const;
@@ -68,6 +74,8 @@ class CompBatch {
   Fingerprint common_;                              ///< program, look and its files
   std::vector<std::vector<std::string>> warnings_;  ///< by job; written by its own stage only
   std::vector<Thumbnail> thumbnails_;               ///< likewise
+  std::vector<LookUse> uses_;                       ///< likewise
+  bool keptSome_ = false;
 };
 
 }  // namespace kagefude
