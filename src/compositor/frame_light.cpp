@@ -14,8 +14,6 @@ namespace {
 
 V3f toFloat(const V3d& v) { return V3f(v); }
 
-Light::Type typeOf(LightType type) { return static_cast<Light::Type>(type); }
-
 /// The settings of the last [[light]] that matches, or the look's own.
 const LightLook* settingsOf(const Look& look, const std::string& name) {
   const LightLook* found = nullptr;
@@ -78,10 +76,7 @@ ShadowMethod arrangementMethod(MaskArrangement arrangement) {
   return ShadowMethod::none;
 }
 
-bool needsMasks(ShadowMethod method) {
-  return method == ShadowMethod::pair || method == ShadowMethod::line ||
-         method == ShadowMethod::disc;
-}
+bool needsMasks(ShadowMethod method) { return entryOf(method).needs.masks.fewest > 0; }
 
 V3f vectorFrom(const std::vector<float>& numbers, const V3f& otherwise) {
   return numbers.empty() ? otherwise : V3f(numbers[0], numbers[1], numbers[2]);
@@ -106,7 +101,7 @@ bool moveLight(const LightLook* settings, FrameLight& light) {
 FrameLight fromSidecar(const Look& look, const SidecarLight& source, bool hasCasters) {
   FrameLight light;
   light.name = source.name;
-  light.light = {typeOf(source.type),
+  light.light = {source.type,
                  toFloat(source.position),
                  toFloat(source.direction),
                  static_cast<float>(source.radius),
@@ -118,14 +113,16 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, bool hasCas
   const LightLook* const settings = settingsOf(look, source.name);
   applySettings(look, settings, light);
   if (moveLight(settings, light)) {
-    if (light.method == ShadowMethod::automatic) light.method = casterMethod(light.light.radius);
+    if (light.method == ShadowMethod::automatic)
+      light.method = source.castsShadow ? casterMethod(light.light.radius) : ShadowMethod::none;
     return light;
   }
   if (light.method == ShadowMethod::automatic) {
-    light.method = source.masks      ? arrangementMethod(source.masks->arrangement)
-                   : source.depthMap ? ShadowMethod::pcf
-                   : hasCasters      ? casterMethod(light.light.radius)
-                                     : ShadowMethod::none;
+    light.method = !source.castsShadow ? ShadowMethod::none
+                   : source.masks      ? arrangementMethod(source.masks->arrangement)
+                   : source.depthMap   ? ShadowMethod::pcf
+                   : hasCasters        ? casterMethod(light.light.radius)
+                                       : ShadowMethod::none;
   }
   if (source.depthMap)
     light.depthMap = {source.depthMap->file, source.depthMap->channel,
@@ -181,7 +178,7 @@ FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool
   const LightParams& params = settings.light;
   FrameLight light;
   light.name = params.name;
-  light.light.type = static_cast<Light::Type>(params.type);
+  light.light.type = params.type;
   light.light.position = vectorFrom(params.position, {0, 0, 0});
   light.light.direction = vectorFrom(params.direction, {0, 0, -1}).normalized();
   light.light.radius = params.radius;
@@ -205,7 +202,7 @@ FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool
 bool isGlob(const std::string& name) { return name.find_first_of("*?") != std::string::npos; }
 
 bool describesLight(const LightParams& params) {
-  return !params.position.empty() || (!params.direction.empty() && params.type == LightKind::sun);
+  return !params.position.empty() || (!params.direction.empty() && params.type == LightType::sun);
 }
 
 std::vector<FrameLight> allLights(const Look& look, const Sidecar* sidecar, int frame,
@@ -230,55 +227,47 @@ std::vector<FrameLight> allLights(const Look& look, const Sidecar* sidecar, int 
   return lights;
 }
 
-std::string_view methodName(ShadowMethod method) {
-  return shadowMethodNames[static_cast<size_t>(method)];
+void checkMasks(const FrameLight& light, const ShadowMethodEntry& method) {
+  const size_t count = light.maskChannels.size();
+  const MaskNeed& need = method.needs.masks;
+  if (count < need.fewest)
+    throw InputError(fmt::format(
+        "light {} has {} masks, but shadow.method = \"{}\" needs {} or more; export it with "
+        "--masks {}",
+        light.name, count, method.name, need.fewest, need.exportAs));
+  if (need.most && count > need.most)
+    throw InputError(
+        fmt::format("light {} has {} masks, but shadow.method = \"{}\" needs the {} of --masks {}",
+                    light.name, count, method.name, need.most, need.exportAs));
 }
 
 void checkMethod(const FrameLight& light, bool hasCasters) {
-  if (needsCasters(light.method) && !hasCasters)
+  const ShadowMethodEntry& method = entryOf(light.method);
+  if (method.needs.casters && !hasCasters)
     throw InputError(fmt::format(
         "light {} takes its shadow from the casters (shadow.method = \"{}\"), but the frame brings "
         "none; export it with --casters",
-        light.name, methodName(light.method)));
-  const bool onReceiver =
-      light.method == ShadowMethod::planar || light.method == ShadowMethod::blob;
-  if (onReceiver && light.receiver.empty())
+        light.name, method.name));
+  if (method.needs.receiver && light.receiver.empty())
     throw LookError(
         fmt::format("shadow.method = \"{}\" wants shadow.receiver, the name of the flat "
                     "object that the shadow falls on",
-                    methodName(light.method)));
-  if (needsDepthMap(light.method) && !light.depthMap)
+                    method.name));
+  if (method.needs.depthMap && !light.depthMap)
     throw InputError(fmt::format(
         "light {} has no depth map, which shadow.method = \"{}\" needs; export it again with the "
         "exporter, which writes one for each light",
-        light.name, methodName(light.method)));
-  if (!needsMasks(light.method)) return;
-  const size_t needed = light.method == ShadowMethod::disc ? 5 : 2;
-  if (light.maskChannels.size() < needed)
-    throw InputError(
-        fmt::format("light {} has {} masks, but shadow.method = \"{}\" needs {} or more; export it "
-                    "with --masks "
-                    "{}",
-                    light.name, light.maskChannels.size(), methodName(light.method), needed,
-                    light.method == ShadowMethod::pair   ? "pair"
-                    : light.method == ShadowMethod::line ? "line:5"
-                                                         : "disc:9"));
-  if (light.method == ShadowMethod::pair && light.maskChannels.size() != 2)
-    throw InputError(fmt::format(
-        "light {} has {} masks, but shadow.method = \"pair\" needs the 2 of --masks pair",
-        light.name, light.maskChannels.size()));
+        light.name, method.name));
+  checkMasks(light, method);
+}
+
+/// The look's own scene, the same in every frame, over what the sidecar says.
+void sizeByScene(const SceneParams& scene, FrameLight& light) {
+  light.subjectCentre = vectorFrom(scene.centre, light.subjectCentre);
+  if (scene.radius > 0.0f) light.subjectRadius = scene.radius;
 }
 
 }  // namespace
-
-bool needsCasters(ShadowMethod method) {
-  return method == ShadowMethod::coverage || method == ShadowMethod::volume ||
-         method == ShadowMethod::places || method == ShadowMethod::planar;
-}
-
-bool needsDepthMap(ShadowMethod method) {
-  return method == ShadowMethod::pcf || method == ShadowMethod::pcss;
-}
 
 std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
                                      const ImageFile& image, int frame, bool hasCasters) {
@@ -289,6 +278,7 @@ std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
     const LightLook* const settings = settingsOf(look, light.name);
     if (!matchesAny(light.name, look.shadow.lights) || (settings && !settings->light.on)) continue;
     checkMethod(light, hasCasters);
+    sizeByScene(look.scene, light);
     for (std::string& mask : light.maskChannels) mask = requireMaskChannel(image, mask);
     chosen.push_back(std::move(light));
   }

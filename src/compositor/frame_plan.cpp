@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/glob.h"
+#include "compositor/output_layers.h"
 #include "frame/casters.h"
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
@@ -73,8 +73,7 @@ void planCoverage(const Look& look, const AovNames& names, FramePlan& plan) {
 }
 
 bool wantsOutlines(const Look& look) {
-  return matchesAny("outline", look.output.layers) ||
-         anyStyleHas(look, &StyleParams::outlineColour);
+  return asksFor(look, "outline") || anyStyleHas(look, &StyleParams::outlineColour);
 }
 
 void nameObjectsFromSidecar(FramePlan& plan) {
@@ -158,6 +157,8 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   plan.sidecar = findSidecar(path);
   for (const LossyPass& lossy : lossyPasses(plan.image))
     plan.warnings.push_back(fmt::format("{}; {}", lossy.what, lossy.remedy));
+  if (plan.sidecar && plan.image.pixelAspect == 1.0f)
+    plan.image.pixelAspect = static_cast<float>(plan.sidecar->pixelAspect);
   const AovNames names = namesFor(look, plan.sidecar);
   plan.position = requireAov(plan.image, names, AovKind::position);
   plan.normal = requireAov(plan.image, names, AovKind::normal);
@@ -174,6 +175,7 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   plan.hasCasters = plan.sidecar && !readCasterEntries(plan.sidecar->path).empty();
   plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame,
                              plan.hasCasters);
+  checkLayers(look, plan.lights);
   return plan;
 }
 

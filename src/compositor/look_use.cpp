@@ -74,23 +74,18 @@ void LookUse::add(const LookUse& other) {
   join(styles, other.styles);
   join(lights, other.lights);
   join(shadowLights, other.shadowLights);
-  join(layers, other.layers);
   objects.insert(other.objects.begin(), other.objects.end());
   materials.insert(other.materials.begin(), other.materials.end());
   lightNames.insert(other.lightNames.begin(), other.lightNames.end());
-  layerNames.insert(other.layerNames.begin(), other.layerNames.end());
 }
 
-LookUse lookUse(const Look& look, const FramePlan& plan, const FrameResult& result,
-                std::vector<bool> styles) {
+LookUse lookUse(const Look& look, const FramePlan& plan, std::vector<bool> styles) {
   LookUse use;
   use.objects = namesIn(plan.listedNames);
   use.materials = namesIn(plan.listedMaterials);
   for (const FrameLight& light : plan.lights) use.lightNames.insert(light.name);
   if (plan.sidecar)
     for (const SidecarLight& light : plan.sidecar->lights) use.lightNames.insert(light.name);
-  for (const NamedPlane& layer : result.layers) use.layerNames.insert(layer.name);
-  if (!result.surfaceId.empty()) use.layerNames.insert("surface.id");
   use.styles = std::move(styles);
   use.styles.resize(look.styles.size());
   for (size_t i = 0; i < look.styles.size(); ++i)
@@ -100,7 +95,6 @@ LookUse lookUse(const Look& look, const FramePlan& plan, const FrameResult& resu
     use.lights.push_back(!light.light.position.empty() || !light.light.direction.empty() ||
                          matchesSome({light.light.name}, use.lightNames));
   use.shadowLights = fitting(look.shadow.lights, use.lightNames);
-  use.layers = fitting(look.output.layers, use.layerNames);
   return use;
 }
 
@@ -114,7 +108,6 @@ std::vector<std::string> unusedEntries(const Look& look, const LookUse& use) {
   for (const LightLook& light : look.lights) lights.push_back(light.light.name);
   addUnfit("a [[light]]", lights, use.lights, use.lightNames, texts);
   addUnfit("shadow.lights", look.shadow.lights, use.shadowLights, use.lightNames, texts);
-  addUnfit("output.layers", look.output.layers, use.layers, use.layerNames, texts);
   return texts;
 }
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "compositor/frame_plan.h"
-#include "compositor/frame_result.h"
 #include "look/look.h"
 
 namespace kagefude {
@@ -17,16 +16,14 @@ struct LookUse {
   std::vector<bool> styles;        ///< each [[style]]
   std::vector<bool> lights;        ///< each [[light]]
   std::vector<bool> shadowLights;  ///< each name of shadow.lights
-  std::vector<bool> layers;        ///< each name of output.layers
-  std::set<std::string> objects, materials, lightNames, layerNames;
+  std::set<std::string> objects, materials, lightNames;
 
   void add(const LookUse& other);
 };
 
 /// The use of one frame. `styles` says which of them fit a surface that is seen; a style whose
 /// names are listed in manifest or sidecar fits as well.
-LookUse lookUse(const Look& look, const FramePlan& plan, const FrameResult& result,
-                std::vector<bool> styles);
+LookUse lookUse(const Look& look, const FramePlan& plan, std::vector<bool> styles);
 
 /// One sentence for each entry that found nothing in all frames, with the nearest name.
 std::vector<std::string> unusedEntries(const Look& look, const LookUse& use);

@@ -6,27 +6,12 @@
 
 #include "base/parameter.h"
 #include "exr/write_image.h"
+#include "look/output_layers.h"
+#include "look/shadow_methods.h"
+#include "passes/tone/light.h"
 
 // The look's sections that are not a pass's own parameters. Each is declared once, here.
 namespace kagefude {
-
-enum class ShadowMethod {
-  automatic,
-  none,
-  pair,
-  line,
-  disc,
-  pcf,
-  pcss,
-  coverage,
-  volume,
-  places,
-  planar,
-  blob
-};
-inline constexpr std::string_view shadowMethodNames[] = {"auto",   "none",   "pair",   "line",
-                                                         "disc",   "pcf",    "pcss",   "coverage",
-                                                         "volume", "places", "planar", "blob"};
 
 /// [shadow]: how each light's visibility is found.
 struct ShadowParams {
@@ -38,12 +23,7 @@ struct ShadowParams {
   std::string blob;
 };
 inline constexpr Parameter shadowParameters[] = {
-    choice<&ShadowParams::method>(
-        "method", shadowMethodNames,
-        "where the visibility comes from: masks (pair, line, disc), the depth map (pcf, pcss), the "
-        "casters (coverage, volume: hard; places: soft; planar: on one receiver), or painted "
-        "blobs; "
-        "auto takes the masks' own arrangement, then the depth map, then the casters, then none"),
+    choice<&ShadowParams::method>("method", shadowMethodNames, shadowMethodHelp.view()),
     plain<&ShadowParams::lights>("lights", "names or globs of the lights that take part"),
     number<&ShadowParams::strength>("strength", 0, 1, "",
                                     "share of the light that a full shadow takes away"),
@@ -56,6 +36,31 @@ inline constexpr Parameter shadowParameters[] = {
 };
 inline constexpr ParameterTable shadowTable{"shadow", "chooses lights and the shadow method",
                                             "004, light sum: k", shadowParameters};
+
+/// [scene]: the size of what the shot shows, for frames whose JSON does not say it.
+struct SceneParams {
+  std::vector<float> centre;
+  float radius = 0.0f;
+  float distance = 0.0f;
+
+  /// Whether it stands for what the JSON says of the scene's place and size.
+  bool sizes() const { return !centre.empty() && radius > 0.0f; }
+};
+inline constexpr Parameter sceneParameters[] = {
+    numbers<&SceneParams::centre>(
+        "centre", 3, -1e12, 1e12, "world units",
+        "middle x, y, z of what the shot shows, the same for all its frames; strokes of objects "
+        "that no JSON describes run round it; empty: as the JSON says"),
+    number<&SceneParams::radius>(
+        "radius", 0, 1e12, "world units",
+        "radius of what the shot shows; strokes of grounds, and of objects that no JSON describes, "
+        "are sized by it; 0: as the JSON says"),
+    number<&SceneParams::distance>(
+        "distance", 0, 1e12, "world units",
+        "distance of the camera from it, for brush.size = \"screen\"; 0: as the JSON says"),
+};
+inline constexpr ParameterTable sceneTable{"scene", "says how large the shot's scene is",
+                                           "kagefude", sceneParameters};
 
 /// [colour]: spaces of the strips, of the result and of the previews.
 struct ColourParams {
@@ -92,10 +97,7 @@ struct OutputParams {
   Compression compression = Compression::zip;
 };
 inline constexpr Parameter outputParameters[] = {
-    plain<&OutputParams::layers>(
-        "layers",
-        "layers beside R,G,B,A, names or globs: visibility.<light>, confidence.<light>, "
-        "coverage.<light>, brush.tone, brush.angle, brush.repeat, outline, surface.id"),
+    plain<&OutputParams::layers>("layers", outputLayerHelp.view()),
     plain<&OutputParams::passthrough>("passthrough",
                                       "also writes every other input channel unchanged"),
     choice<&OutputParams::background>("background", backgroundNames,
@@ -152,14 +154,11 @@ inline constexpr Parameter styleParameters[] = {
 inline constexpr ParameterTable styleTable{"style", "paints objects or materials with a strip",
                                            "002 fig. 5.5", styleParameters};
 
-enum class LightKind { point, spot, sun, area };
-inline constexpr std::string_view lightKindNames[] = {"point", "spot", "sun", "area"};
-
 /// One [[light]]: settings for lights of the sidecar whose name matches, or a light of its own
 /// where no sidecar describes it (then `masks` or `depth_map` name its layers or file).
 struct LightParams {
   std::string name;
-  LightKind type = LightKind::point;
+  LightType type = LightType::point;
   std::vector<float> position;
   std::vector<float> direction;
   float radius = 0.0f;
@@ -172,7 +171,7 @@ struct LightParams {
 };
 inline constexpr Parameter lightParameters[] = {
     plain<&LightParams::name>("name", "name or glob of the light"),
-    choice<&LightParams::type>("type", lightKindNames, "kind of a light that no sidecar describes"),
+    choice<&LightParams::type>("type", lightTypeNames, "kind of a light that no sidecar describes"),
     numbers<&LightParams::position>(
         "position", 3, -1e12, 1e12, "world units",
         "where it stands; moves a light of the sidecar, which then takes its shadow from "

@@ -25,32 +25,27 @@ class UseOfALook : public ::testing::Test {
 
 TEST_F(UseOfALook, NamesOfAnyFrameCount) {
   const Look look = lookOf("[[style]]\nobject = \"Ball\"\n");
-  LookUse all = lookUse(look, planWith({"Floor"}), {}, {false});
+  LookUse all = lookUse(look, planWith({"Floor"}), {false});
   EXPECT_EQ(unusedEntries(look, all).size(), 1u);
-  all.add(lookUse(look, planWith({"Floor", "Ball"}), {}, {false}));
+  all.add(lookUse(look, planWith({"Floor", "Ball"}), {false}));
   EXPECT_TRUE(unusedEntries(look, all).empty());
 }
 
 TEST_F(UseOfALook, SeenSurfacesCountWithoutNames) {
   const Look look = lookOf("[[style]]\nobject = \"Ball\"\n");
-  EXPECT_TRUE(unusedEntries(look, lookUse(look, planWith({}), {}, {true})).empty());
+  EXPECT_TRUE(unusedEntries(look, lookUse(look, planWith({}), {true})).empty());
 }
 
 TEST_F(UseOfALook, TheNearestNameIsSaid) {
   const Look look = lookOf(
-      "[shadow]\nlights = [\"Key\", \"Rimm*\"]\n[output]\nlayers = [\"visibility.Kye\"]\n"
+      "[shadow]\nlights = [\"Key\", \"Rimm*\"]\n"
       "[[light]]\nname = \"Kex*\"\n[[style]]\nobject = \"Bal\"\n");
-  FrameResult result;
-  result.layers.push_back({"visibility.Key", Floats(1, 1)});
   const auto texts =
-      unusedEntries(look, lookUse(look, planWith({"Ball", "Floor"}), result, {false}));
-  ASSERT_EQ(texts.size(), 4u);
+      unusedEntries(look, lookUse(look, planWith({"Ball", "Floor"}), {false}));
+  ASSERT_EQ(texts.size(), 3u);
   expectContains(texts[0], "object Bal (did you mean Ball?)");
   expectContains(texts[1], "a [[light]] names Kex*");
   expectContains(texts[2], "shadow.lights names Rimm*");
-  expectContains(texts[3],
-                 "output.layers names visibility.Kye, which fits nothing in the whole run"
-                 " (did you mean visibility.Key?)");
 }
 
 }  // namespace
