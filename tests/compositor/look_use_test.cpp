@@ -40,8 +40,7 @@ TEST_F(UseOfALook, TheNearestNameIsSaid) {
   const Look look = lookOf(
       "[shadow]\nlights = [\"Key\", \"Rimm*\"]\n"
       "[[light]]\nname = \"Kex*\"\n[[style]]\nobject = \"Bal\"\n");
-  const auto texts =
-      unusedEntries(look, lookUse(look, planWith({"Ball", "Floor"}), {false}));
+  const auto texts = unusedEntries(look, lookUse(look, planWith({"Ball", "Floor"}), {false}));
   ASSERT_EQ(texts.size(), 3u);
   expectContains(texts[0], "object Bal (did you mean Ball?)");
   expectContains(texts[1], "a [[light]] names Kex*");

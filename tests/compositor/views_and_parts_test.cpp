@@ -60,7 +60,8 @@ class ViewsAndParts : public ::testing::Test {
     EXPECT_TRUE(isSame(alone.colour.x, found.colour.x));
     ASSERT_EQ(alone.layers.size(), found.layers.size());
     for (size_t i = 0; i < alone.layers.size(); ++i)
-      EXPECT_TRUE(isSame(alone.layers[i].plane, found.layers[i].plane)) << alone.layers[i].name;
+      EXPECT_TRUE(isSame(alone.layers[i].plane.floats, found.layers[i].plane.floats))
+          << alone.layers[i].name;
     EXPECT_FALSE(isSame(found.colour.x, comp(name, "left").colour.x)) << "one eye twice";
   }
 
