@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <set>
 
 #include "cli/commands.h"
 #include "sequence/comp_batch.h"
@@ -125,6 +126,24 @@ class RunReport {
   Clock::time_point written_ = Clock::now();
 };
 
+/// One line a kind of warning and a run: those that differ in numbers only, such as the frame's in
+/// a file name, are one kind. The report has them all.
+class SaidWarnings {
+ public:
+  bool isNew(const std::string& warning) {
+    std::string kind;
+    for (const char c : warning) {
+      const bool digit = c >= '0' && c <= '9';
+      if (!digit) kind += c;
+      if (digit && !kind.ends_with('#')) kind += '#';
+    }
+    return kinds_.insert(std::move(kind)).second;
+  }
+
+ private:
+  std::set<std::string> kinds_;
+};
+
 int comp(const CompOptions& options, Console& console) {
   Interrupts interrupts([](int code) { std::_Exit(code); });
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
@@ -136,6 +155,7 @@ int comp(const CompOptions& options, Console& console) {
                                      console.terminal, console.columns);
 
   RunReport report(options, look);
+  SaidWarnings said;
 
   tbb::task_arena arena(threads);
   BatchResult result;
@@ -143,13 +163,15 @@ int comp(const CompOptions& options, Console& console) {
     progress->begin(batch.jobs().size());
     result = batch.run([&](const CompEvent& event) {
       const std::string name = event.job->name();
-      for (const std::string& warning : event.warnings) progress->warning(name + ": " + warning);
+      for (const std::string& warning : event.warnings)
+        if (said.isNew(warning)) progress->warning(name + ": " + warning);
       report.add(event);
       const FrameEvent& frame = event.frame;
       progress->frame({name, frame.outcome == FrameOutcome::kept, frame.message,
                        frame.readSeconds + frame.computeSeconds + frame.writeSeconds});
     });
   });
+  for (const std::string& warning : batch.unused()) progress->warning(warning);
   report.finish();
   return finish(result, batch.jobs(), options.skipBadFrames, interrupts, *progress, console);
 }

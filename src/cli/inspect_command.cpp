@@ -74,6 +74,8 @@ void printInspection(std::ostream& out, const Inspection& found) {
     out << fmt::format("part {}: {}, {}{}\n", part.name.empty() ? "(unnamed)" : part.name,
                        part.compression, part.tiled ? "tiled" : "scanlines",
                        part.dataWindow == found.dataWindow ? "" : ", " + spell(part.dataWindow));
+  if (!found.views.empty())
+    out << fmt::format("views {}; shown: {}\n", listNames(found.views), found.view);
   if (found.sidecar.empty())
     out << "no sidecar\n";
   else

@@ -81,6 +81,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
                          FramePlanes planes, StageSink* sink, StageClock* clock) {
   FrameResult result;
   result.warnings = plan.warnings;
+  result.warnings.insert(result.warnings.end(), planes.warnings.begin(), planes.warnings.end());
   if (planes.casting)
     result.warnings.insert(result.warnings.end(), planes.casting->warnings.begin(),
                            planes.casting->warnings.end());
@@ -92,6 +93,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   Floats tone = frameTone(look, plan, planes, surfaces, result, sink, clock);
 
   const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
+  result.fittingStyles = styled.fitting;
   adjustTone(tone, styled.anchorIndex, styled.tones);
   lap(clock, "styles and tone");
   if (sink) sink->number("brush.tone", tone);

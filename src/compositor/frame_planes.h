@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "compositor/casting_scene.h"
@@ -32,6 +33,7 @@ struct FramePlanes {
   std::vector<Floats> coverageShares;           ///< how much of the pixel each covers
   std::vector<LightPlanes> lights;              ///< in the order of the plan's lights
   std::shared_ptr<const CastingScene> casting;  ///< null when no light needs it
+  std::vector<std::string> warnings;            ///< what is doubted about the pixels
   size_t badPixels = 0;                         ///< pixels whose NaN or Inf made them background
   size_t badBeauty = 0;    ///< pixels of the beauty that hold NaN or Inf, taken as black
   size_t badAlbedo = 0;    ///< the same of the albedo

@@ -1,10 +1,14 @@
 #include "compositor/read_frame.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "base/error.h"
 #include "compositor/casting_scene.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
+#include "frame/frame_view.h"
 #include "frame/sanitise.h"
 #include "image/parallel.h"
 
@@ -57,7 +61,7 @@ Bytes toMask(View<const float> values) {
 }
 
 Floats readDepthMap(const DepthMapSource& source) {
-  const ImageFile image = openImage(source.file);
+  const ImageFile image = openFrame(source.file);
   std::string channel = source.channel;
   if (channel.empty() || !image.findChannel(channel))
     channel = requireAov(image, {}, AovKind::depth).channels.at(0);
@@ -71,6 +75,30 @@ void clearWithoutNormal(FramePlanes& planes) {
       for (int x = 0; x < planes.width; ++x)
         if (planes.normal.view()(x, y) == V3f(0.0f)) planes.objectId(x, y) = 0;
   });
+}
+
+/// Nothing is seen where the position's part does not reach: a cropped part is empty around it.
+void clearOutside(const FramePlan& plan, FramePlanes& planes) {
+  const Channel* channel = plan.image.findChannel(plan.position.channels.front());
+  const Window& whole = plan.image.dataWindow;
+  const Window& own = plan.image.parts[static_cast<size_t>(channel->part)].dataWindow;
+  if (own == whole) return;
+  const int left = own.x - whole.x, top = own.y - whole.y;
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x)
+        if (x < left || y < top || x >= left + own.width || y >= top + own.height)
+          planes.objectId(x, y) = 0;
+  });
+}
+
+/// A reading that the look can set stops the frame; what nothing explains is said.
+void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
+  const SpaceDoubt doubt =
+      doubtSpaces(plan.spaces, plan.image, planes.position, planes.normal, planes.objectId);
+  if (doubt.known)
+    throw InputError(fmt::format("{}: {}", plan.image.path.string(), doubt.sentence));
+  if (!doubt.sentence.empty()) planes.warnings.push_back(doubt.sentence);
 }
 
 }  // namespace
@@ -120,11 +148,14 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   };
   if (std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene))
     planes.casting = std::make_shared<const CastingScene>(readCastingScene(plan));
+  convertToWorld(plan.spaces, plan.image, planes.position, planes.normal);
+  clearOutside(plan, planes);
   planes.badBeauty = clearNonFiniteColour(planes.beauty, planes.alpha.view());
   planes.badAlbedo = clearNonFiniteColour(planes.albedo);
   planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
+  checkSpaces(plan, planes);
   return planes;
 }
 

@@ -206,6 +206,10 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
   const std::vector<VisibleBounds> seen = visibleBounds(look, plan, index, planes.position);
   StyledSurfaces result;
   const StyleLook fallback{{}, look.passes};
+  result.fitting.resize(look.styles.size());
+  for (const Surface& surface : index.surfaces)
+    for (size_t i = 0; i < look.styles.size(); ++i)
+      if (!result.fitting[i]) result.fitting[i] = matches(look.styles[i].style, plan, surface);
   for (size_t number = 1; number <= index.surfaces.size(); ++number) {
     const StyleLook* found = styleFor(look, plan, index.surfaces[number - 1]);
     const StyleLook& style = found ? *found : fallback;

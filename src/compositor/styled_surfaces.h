@@ -19,6 +19,7 @@ struct StyleOutline {
 
 /// Which strokes every pixel gets: one anchor for each pair of object and style that is seen.
 struct StyledSurfaces {
+  std::vector<bool> fitting;    ///< each style of the look: whether it fits a surface that is seen
   Plane<uint16_t> anchorIndex;  ///< 0 = background, i -> anchors[i - 1]
   std::vector<BrushAnchor> anchors;
   std::vector<BrushParams> brushes;    ///< per anchor

@@ -66,9 +66,11 @@ void readManifestFile(const ImageFile& file, const std::string& relative, Manife
 
 Manifest readManifest(const ImageFile& file, const Cryptomatte& cryptomatte) {
   Manifest manifest;
-  const std::string base = "cryptomatte/" + cryptomatte.key;
-  const auto inHeader = cryptomatte.key.empty() ? std::nullopt : file.text(base + "/manifest");
-  const auto beside = cryptomatte.key.empty() ? std::nullopt : file.text(base + "/manif_file");
+  const auto textOf = [&](const char* what) -> std::optional<std::string> {
+    if (cryptomatte.key.empty()) return std::nullopt;
+    return file.textOfPart(cryptomatte.part, cryptomatte.key + what);
+  };
+  const auto inHeader = textOf("/manifest"), beside = textOf("/manif_file");
   if (inHeader) {
     parseManifest(*inHeader,
                   fmt::format("the manifest of {} in {}", cryptomatte.name, file.path.string()),

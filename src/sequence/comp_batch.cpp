@@ -81,7 +81,8 @@ CompBatch::CompBatch(const Look& look, CompRequest request)
       common_(commonFingerprint(look, colour_)),
       planned_(jobs_.size()),
       warnings_(jobs_.size()),
-      thumbnails_(jobs_.size()) {
+      thumbnails_(jobs_.size()),
+      uses_(jobs_.size()) {
   if (jobs_.empty()) return;
   try {
     planned(0);
@@ -92,9 +93,21 @@ CompBatch::CompBatch(const Look& look, CompRequest request)
 
 CompBatch::~CompBatch() = default;
 
+FramePlan CompBatch::planJob(const FrameJob& job) const {
+  FramePlan plan = planFrame(look_, job.inputs.front(), job.frame, job.view);
+  const bool oneFile = !job.view.empty() && !request_.plan.inputs.front().hasView();
+  if (oneFile && plan.image.views.empty())
+    throw InputError(fmt::format(
+        "{} holds one view and does not say which, so it cannot be made for {}; put %V into the "
+        "input's name, or leave it out of the output's",
+        plan.image.path.string(), job.view));
+  return plan;
+}
+
 Fingerprint CompBatch::fingerprint(const FrameJob& job) const {
   Fingerprint print = common_;
   print.add("frame", int64_t{job.frame});
+  if (!job.view.empty()) print.add("view", job.view);
   for (const auto& input : job.inputs)
     print.addFile("input", input).addFile("sidecar", sidecarPath(input));
   return print;
@@ -105,7 +118,7 @@ CompBatch::Planned& CompBatch::planned(size_t index) {
   if (slot) return *slot;
   const FrameJob& job = jobs_[index];
   Fingerprint print = fingerprint(job);
-  FramePlan plan = planFrame(look_, job.inputs.front(), job.frame);
+  FramePlan plan = planJob(job);
   addDepthMaps(plan, print);
   slot = std::make_unique<Planned>(Planned{std::move(print), std::move(plan)});
   return *slot;
@@ -149,6 +162,7 @@ CompBatch::Read CompBatch::read(size_t index) {
 CompBatch::Composed CompBatch::compose(size_t index, Read input) {
   FrameResult result = composeFrame(look_, strips_, input.plan, std::move(input.planes));
   warnings_[index] = result.warnings;
+  uses_[index] = lookUse(look_, input.plan, result.fittingStyles);
   if (request_.thumbnails) thumbnails_[index] = frameThumbnail(look_, colour_, result.colour);
   return {std::move(input.plan), std::move(result), std::move(input.fingerprint)};
 }
@@ -163,6 +177,13 @@ void CompBatch::write(size_t index, Composed output) const {
   }
   makeFolderOf(paths.front());
   writeFrame(look_, output.plan, output.result, paths.front(), attributes);
+}
+
+std::vector<std::string> CompBatch::unused() const {
+  if (keptSome_) return {};
+  LookUse all;
+  for (const LookUse& use : uses_) all.add(use);
+  return unusedEntries(look_, all);
 }
 
 BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame) {
@@ -181,6 +202,7 @@ BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame)
   options.skipBadFrames = request_.skipBadFrames;
   options.stop = request_.stop;
   options.onFrame = [&](const FrameEvent& event) {
+    keptSome_ = keptSome_ || event.outcome == FrameOutcome::kept;
     onFrame({&jobs_[event.index], event, std::move(warnings_[event.index]),
              std::move(thumbnails_[event.index])});
   };

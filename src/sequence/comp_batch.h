@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "colour/colour.h"
+#include "compositor/frame_plan.h"
+#include "compositor/look_use.h"
 #include "compositor/strip_set.h"
 #include "look/look.h"
 #include "sequence/batch.h"
@@ -47,6 +49,9 @@ class CompBatch {
   ~CompBatch();
 
   const std::vector<FrameJob>& jobs() const { return jobs_; }
+  /// What of the look fitted nothing in all frames, a sentence each; after run(). Empty where
+  /// frames were kept, for what these show is not known.
+  std::vector<std::string> unused() const;
   /// Runs all jobs in the current TBB arena; `onFrame` is never called twice at a time.
   BatchResult run(const std::function<void(const CompEvent&)>& onFrame);
 
@@ -54,6 +59,7 @@ class CompBatch {
   struct Planned;
   struct Read;
   struct Composed;
+  FramePlan planJob(const FrameJob& job) const;
   /// The frame's plan, made once: when its memory is estimated, and the first when the batch is.
   Planned& planned(size_t index);
   Read read(size_t index);
@@ -74,6 +80,8 @@ class CompBatch {
   std::vector<std::unique_ptr<Planned>> planned_;   ///< by job, from its plan to its reading
   std::vector<std::vector<std::string>> warnings_;  ///< by job; written by its own stage only
   std::vector<Thumbnail> thumbnails_;               ///< likewise
+  std::vector<LookUse> uses_;                       ///< likewise
+  bool keptSome_ = false;
 };
 
 }  // namespace kagefude
