@@ -2,6 +2,7 @@
 """One exported light: its mask and truth layers in the data scene, moved into place per frame."""
 
 from . import light_offset, mask_positions, vectors
+from .arguments import Arrangement
 from .errors import ExportError
 from .light_state import (area_extents, new_mask_lamp, new_truth_lamp, place_mask_lamp, place_truth_lamp,
                           read_light, travel_direction, TYPES)
@@ -10,15 +11,20 @@ from .subject import Sphere
 
 
 class LightRig:
-    def __init__(self, light, name, key, masked, options, data):
-        """`name` is the light's own in the JSON; a light that is not `masked` casts no shadow."""
+    def __init__(self, light, name, key, masked, sized, options, data):
+        """`name` is the light's own in the JSON; a light that is not `masked` casts no shadow.
+
+        One that is never `sized` gets its one hard mask, unless an offset is asked for.
+        """
         self.light, self.name, self.key, self.masked, self.options = light, name, key, masked, options
+        hard = not sized and not options.offset
+        self.arrangement = Arrangement("hard", 1) if hard else options.masks
         self.mask_lamps, self.truth_lamps = {}, []
         if not masked:
             return
         self._refuse_what_cannot_work()
         kind = TYPES[light.data.type]
-        for number in range(options.masks.count):
+        for number in range(self.arrangement.count):
             layer = mask_layer(key, number)
             self.mask_lamps[layer] = new_mask_lamp(light, kind, layer)
             data.add_shadow_layer(layer, self.mask_lamps[layer])
@@ -39,7 +45,7 @@ class LightRig:
         for lamp in self.truth_lamps:
             place_truth_lamp(lamp, state, evaluated)
         entry = self._describe(state, travel, subject, evaluated)
-        places = mask_positions.places_on_light(self.options.masks, travel, state.surface_axes)
+        places = mask_positions.places_on_light(self.arrangement, travel, state.surface_axes)
         entry["axes"] = {"u": list(places.u_axis), "v": list(places.v_axis)}
         if self.masked:
             self._place_masks(state, travel, places, subject, entry)
@@ -66,8 +72,8 @@ class LightRig:
         return entry
 
     def _place_masks(self, state, travel, places, subject, entry):
-        masks = self.options.masks
-        offset = self.options.offset or self._auto_offset(state, subject)
+        masks = self.arrangement
+        offset, offset_v = self._offsets(state, subject, entry)
         samples = []
         for (layer, lamp), place in zip(self.mask_lamps.items(), places.places):
             sample = {"layer": layer, "uv": list(place)}
@@ -76,19 +82,28 @@ class LightRig:
                 direction = mask_positions.mask_direction(travel, places, place, offset)
                 sample["direction"] = list(direction)
             else:
-                position = mask_positions.mask_position(state.position, places, place, offset)
+                position = mask_positions.mask_position(
+                    state.position, places, (place[0], place[1] * offset_v / offset), offset)
                 sample["position"] = list(position)
             place_mask_lamp(lamp, state, sample.get("position", entry["position"]), direction)
             samples.append(sample)
         entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples}
+        if offset_v != offset:
+            entry["masks"]["offset_v"] = offset_v
 
-    def _auto_offset(self, state, subject):
+    def _offsets(self, state, subject, entry):
+        """The masks' offsets along u and v."""
+        if self.options.offset:
+            return self.options.offset, self.options.offset
+        if self.arrangement.kind == "disc" and "area" in entry:
+            return light_offset.area_offsets(state.radius, **entry["area"])
         distance = vectors.length(vectors.subtract(state.position, subject.center))
-        return light_offset.auto_offset(self.options.masks.kind, state.name, state.radius,
-                                        state.half_length, distance, subject.radius)
+        offset = light_offset.auto_offset(self.arrangement.kind, state.radius, state.half_length,
+                                          distance, subject.radius)
+        return offset, offset
 
     def _refuse_what_cannot_work(self):
-        if self.options.masks.kind == "pair" and self.light.data.type == 'SUN':
+        if self.arrangement.kind == "pair" and self.light.data.type == 'SUN':
             raise ExportError(f"light '{self.light.name}' is a sun, whose shadows do not change "
                               f"along its axis, so a pair of masks would be twice the same; use "
                               f"--masks line:5 or --masks disc:5")

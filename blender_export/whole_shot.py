@@ -25,6 +25,7 @@ class LightSample:
     casts: bool
     unknown_node: str         # a node of the light that could not be followed, or None
     irradiance_at: object     # function of a world point: luminance that arrives there
+    sized: bool = True        # False where it is a point
 
 
 @dataclass

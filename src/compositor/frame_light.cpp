@@ -41,10 +41,12 @@ std::optional<LightGeometry> geometryOf(const SidecarLight& source) {
     return std::nullopt;
   const double offset = source.masks->offset;
   const bool round = source.type == LightType::point || source.type == LightType::spot;
-  return LightGeometry{
-      source.type == LightType::sun,  toFloat(source.position),
-      toFloat(source.direction),      toFloat(source.axisU * offset),
-      toFloat(source.axisV * offset), round && source.masks->arrangement == MaskArrangement::disc};
+  return LightGeometry{source.type == LightType::sun,
+                       toFloat(source.position),
+                       toFloat(source.direction),
+                       toFloat(source.axisU * offset),
+                       toFloat(source.axisV * source.masks->offsetV),
+                       round && source.masks->arrangement == MaskArrangement::disc};
 }
 
 /// From a round light's centre to the farther mask of a pair; nothing for other lights.
@@ -74,13 +76,15 @@ ShadowMethod arrangementMethod(MaskArrangement arrangement) {
       return ShadowMethod::line;
     case MaskArrangement::disc:
       return ShadowMethod::disc;
+    case MaskArrangement::hard:
+      return ShadowMethod::hard;
   }
   return ShadowMethod::none;
 }
 
 bool needsMasks(ShadowMethod method) {
   return method == ShadowMethod::pair || method == ShadowMethod::line ||
-         method == ShadowMethod::disc;
+         method == ShadowMethod::disc || method == ShadowMethod::hard;
 }
 
 V3f vectorFrom(const std::vector<float>& numbers, const V3f& otherwise) {
@@ -255,7 +259,9 @@ void checkMethod(const FrameLight& light, bool hasCasters) {
         "exporter, which writes one for each light",
         light.name, methodName(light.method)));
   if (!needsMasks(light.method)) return;
-  const size_t needed = light.method == ShadowMethod::disc ? 5 : 2;
+  const size_t needed = light.method == ShadowMethod::disc   ? 5
+                        : light.method == ShadowMethod::hard ? 1
+                                                             : 2;
   if (light.maskChannels.size() < needed)
     throw InputError(
         fmt::format("light {} has {} masks, but shadow.method = \"{}\" needs {} or more; export it "

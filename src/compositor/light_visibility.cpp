@@ -52,6 +52,13 @@ Floats fromDepth(const FrameLight& light, const LightPlanes& planes, const Frame
                         light.passes.pcss);
 }
 
+/// A light without size: lit or hidden.
+Floats fromFirstMask(View<const uint8_t> mask) {
+  Floats visibility(mask.width, mask.height);
+  for (size_t i = 0; i < mask.pixels(); ++i) visibility.row(0)[i] = mask.data[i] ? 1.0f : 0.0f;
+  return visibility;
+}
+
 Floats fromPair(const FrameLight& light, const LightPlanes& planes, const FramePlanes& frame,
                 View<const uint32_t> surfaces) {
   const PairParams& params = light.passes.pair;
@@ -85,6 +92,8 @@ LightVisibility measured(const FrameLight& light, const FramePlan& plan, const L
     case ShadowMethod::line:
     case ShadowMethod::disc:
       return fromShape(light, planes, frame, surfaces);
+    case ShadowMethod::hard:
+      return {fromFirstMask(planes.masks.at(0)), sure()};
     case ShadowMethod::pcf:
     case ShadowMethod::pcss:
       return {fromDepth(light, planes, frame, surfaces), sure()};

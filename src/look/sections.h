@@ -22,11 +22,12 @@ enum class ShadowMethod {
   volume,
   places,
   planar,
-  blob
+  blob,
+  hard
 };
-inline constexpr std::string_view shadowMethodNames[] = {"auto",   "none",   "pair",   "line",
-                                                         "disc",   "pcf",    "pcss",   "coverage",
-                                                         "volume", "places", "planar", "blob"};
+inline constexpr std::string_view shadowMethodNames[] = {
+    "auto",     "none",   "pair",   "line",   "disc", "pcf", "pcss",
+    "coverage", "volume", "places", "planar", "blob", "hard"};
 
 /// [shadow]: how each light's visibility is found.
 struct ShadowParams {
@@ -40,7 +41,8 @@ struct ShadowParams {
 inline constexpr Parameter shadowParameters[] = {
     choice<&ShadowParams::method>(
         "method", shadowMethodNames,
-        "where the visibility comes from: masks (pair, line, disc), the depth map (pcf, pcss), the "
+        "where the visibility comes from: masks (pair, line, disc; hard: the first alone), the "
+        "depth map (pcf, pcss), the "
         "casters (coverage, volume: hard; places: soft; planar: on one receiver), or painted "
         "blobs; "
         "auto takes the masks' own arrangement, then the depth map, then the casters, then none"),
