@@ -53,6 +53,20 @@ void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {
   });
 }
 
+/// Associated "over": drawn lines over what is painted and what is not.
+void putLinesOver(const FramePlanes& planes, BrushResult& brush) {
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x) {
+        const float behind = 1.0f - planes.linesAlpha(x, y);
+        brush.r(x, y) = planes.lines.x(x, y) + behind * brush.r(x, y);
+        brush.g(x, y) = planes.lines.y(x, y) + behind * brush.g(x, y);
+        brush.b(x, y) = planes.lines.z(x, y) + behind * brush.b(x, y);
+        brush.a(x, y) = planes.linesAlpha(x, y) + behind * brush.a(x, y);
+      }
+  });
+}
+
 void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageSink& sink) {
   if (!planes.beauty.empty()) sink.picture("beauty", planes.beauty);
   if (!planes.albedo.empty()) sink.picture("albedo", planes.albedo);
@@ -111,6 +125,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   if (sink && !outline.empty()) sink->number("outline", outline);
   if (look.output.background == Background::beauty && !planes.beauty.empty())
     putBeautyBehind(planes, brush);
+  if (!planes.linesAlpha.empty()) putLinesOver(planes, brush);
   result.colour.x = std::move(brush.r);
   result.colour.y = std::move(brush.g);
   result.colour.z = std::move(brush.b);

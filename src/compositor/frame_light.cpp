@@ -44,10 +44,12 @@ std::optional<LightGeometry> geometryOf(const SidecarLight& source) {
     return std::nullopt;
   const double offset = source.masks->offset;
   const bool round = source.type == LightType::point || source.type == LightType::spot;
-  return LightGeometry{
-      source.type == LightType::sun,  toFloat(source.position),
-      toFloat(source.direction),      toFloat(source.axisU * offset),
-      toFloat(source.axisV * offset), round && source.masks->arrangement == MaskArrangement::disc};
+  return LightGeometry{source.type == LightType::sun,
+                       toFloat(source.position),
+                       toFloat(source.direction),
+                       toFloat(source.axisU * offset),
+                       toFloat(source.axisV * source.masks->offsetV),
+                       round && source.masks->arrangement == MaskArrangement::disc};
 }
 
 /// From a round light's centre to the farther mask of a pair; nothing for other lights.
@@ -94,6 +96,8 @@ ShadowMethod arrangementMethod(MaskArrangement arrangement) {
       return ShadowMethod::line;
     case MaskArrangement::disc:
       return ShadowMethod::disc;
+    case MaskArrangement::hard:
+      return ShadowMethod::hard;
   }
   return ShadowMethod::none;
 }

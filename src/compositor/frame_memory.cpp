@@ -64,6 +64,7 @@ size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
   size_t floats = 4 * (3 + 3);
   if (plan.albedo) floats += 4 * 3;
   if (plan.beauty) floats += 4 * 4;
+  if (!plan.lines.empty()) floats += 4 * 4;
   const size_t ids = plan.materialId ? 2 * ofIds : ofIds;
   const size_t layers = layerBytes(look, plan.lights);
   const size_t edges = plan.coverage ? ofEdgeRanks : 0;

@@ -76,6 +76,14 @@ bool wantsOutlines(const Look& look) {
   return asksFor(look, "outline") || anyStyleHas(look, &StyleParams::outlineColour);
 }
 
+std::string requireLinesChannel(const FramePlan& plan, const char* channel) {
+  const std::string name = fmt::format("{}.{}", plan.sidecar->linesLayer, channel);
+  if (!plan.image.findChannel(name))
+    throw InputError(fmt::format("{} has no channel {} of the lines that its JSON names",
+                                 plan.image.path.string(), name));
+  return name;
+}
+
 void nameObjectsFromSidecar(FramePlan& plan) {
   if (!plan.sidecar) return;
   for (const SidecarObject& object : plan.sidecar->objects)
@@ -178,6 +186,9 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   if (plan.sidecar) plan.spaces.cameraFromWorld = plan.sidecar->camera.cameraFromWorld;
   plan.albedo = findAov(plan.image, names, AovKind::albedo);
   plan.beauty = findAov(plan.image, names, AovKind::beauty);
+  if (plan.sidecar && !plan.sidecar->linesLayer.empty())
+    for (const char* channel : {"R", "G", "B", "A"})
+      plan.lines.push_back(requireLinesChannel(plan, channel));
   planObjects(names, plan);
   if (anyStyleHas(look, &StyleParams::material)) planMaterials(names, plan);
   nameObjectsFromSidecar(plan);

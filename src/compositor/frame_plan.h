@@ -23,8 +23,9 @@ struct FramePlan {
   Aov position, normal;
   VectorSpaces spaces;
   std::optional<Aov> albedo, beauty;
-  std::optional<Aov> depth;     ///< only for outlines where no camera is known
-  std::optional<Aov> coverage;  ///< Cryptomatte of objects whose coverage draws the edges
+  std::vector<std::string> lines;  ///< channels R, G, B, A of drawn lines; empty for none
+  std::optional<Aov> depth;        ///< only for outlines where no camera is known
+  std::optional<Aov> coverage;     ///< Cryptomatte of objects whose coverage draws the edges
   IdSource idSource = IdSource::cryptomatte;
   Aov objectId;
   IdSource materialSource = IdSource::cryptomatte;

@@ -28,6 +28,8 @@ struct FramePlanes {
   Vec3Plane albedo;
   Vec3Plane beauty;
   Floats alpha;
+  Vec3Plane lines;  ///< drawn lines that lie over everything, associated, and their alpha
+  Floats linesAlpha;
   Floats depth;                                 ///< only for outlines where no camera is known
   std::vector<Labels> coverageIds;              ///< Cryptomatte of objects by rank, for clean edges
   std::vector<Floats> coverageShares;           ///< how much of the pixel each covers

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/error.h"
 #include "compositor/casting_scene.h"
@@ -101,6 +102,21 @@ void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
   if (!doubt.sentence.empty()) planes.warnings.push_back(doubt.sentence);
 }
 
+/// Where an object is not painted, the beauty stands: cut, or with what lies behind it.
+void clearUnpainted(const FramePlan& plan, FramePlanes& planes) {
+  if (!plan.sidecar) return;
+  std::set<uint32_t> unpainted;
+  for (const SidecarObject& object : plan.sidecar->objects)
+    if (!object.painted)
+      unpainted.insert(plan.idSource == IdSource::index ? object.index : object.cryptoId);
+  if (unpainted.empty()) return;
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x)
+        if (unpainted.count(planes.objectId(x, y))) planes.objectId(x, y) = 0;
+  });
+}
+
 }  // namespace
 
 FramePlanes readFramePlanes(const FramePlan& plan) {
@@ -112,6 +128,12 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   if (plan.beauty) {
     requestVector(reader, *plan.beauty, planes.beauty);
     if (plan.beauty->channels.size() > 3) reader.floats(plan.beauty->channels[3], planes.alpha);
+  }
+  if (!plan.lines.empty()) {
+    reader.floats(plan.lines[0], planes.lines.x);
+    reader.floats(plan.lines[1], planes.lines.y);
+    reader.floats(plan.lines[2], planes.lines.z);
+    reader.floats(plan.lines[3], planes.linesAlpha);
   }
   if (plan.depth) reader.floats(plan.depth->channels.at(0), planes.depth);
   RequestedIds objects, materials;
@@ -155,6 +177,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
+  clearUnpainted(plan, planes);
   checkSpaces(plan, planes);
   return planes;
 }

@@ -58,6 +58,14 @@ SurfaceIndex indexSurfaces(const FramePlanes& frame) {
   return result;
 }
 
+/// Whether a name fits, whole or without the library that tells it from others: Body [cast.blend].
+bool fits(const std::string& name, const std::vector<std::string>& patterns) {
+  if (matchesAny(name, patterns)) return true;
+  const size_t library = name.rfind(" [");
+  return library != std::string::npos && name.back() == ']' &&
+         matchesAny(name.substr(0, library), patterns);
+}
+
 bool matches(const StyleParams& style, const FramePlan& plan, const Surface& surface) {
   if (style.index != 0 && plan.idSource != IdSource::cryptomatte)
     return surface.object == static_cast<uint32_t>(style.index);
@@ -65,11 +73,10 @@ bool matches(const StyleParams& style, const FramePlan& plan, const Surface& sur
     const SidecarObject* object = plan.findObject(surface.object);
     return object && object->index == static_cast<uint32_t>(style.index);
   }
-  if (!style.object.empty() && !matchesAny(plan.objectName(surface.object), style.object))
-    return false;
+  if (!style.object.empty() && !fits(plan.objectName(surface.object), style.object)) return false;
   if (!style.material.empty()) {
     const auto name = plan.materialNames.find(surface.material);
-    if (name == plan.materialNames.end() || !matchesAny(name->second, style.material)) return false;
+    if (name == plan.materialNames.end() || !fits(name->second, style.material)) return false;
   }
   return true;
 }

@@ -56,11 +56,14 @@ MaskSample readSample(const JsonPlace& json) {
 LightMasks readMasks(const JsonPlace& json) {
   LightMasks masks;
   masks.arrangement =
-      static_cast<MaskArrangement>(json["arrangement"].choice({"pair", "line", "disc"}));
+      static_cast<MaskArrangement>(json["arrangement"].choice({"pair", "line", "disc", "hard"}));
   masks.offset = json["offset"].number(0, large);
+  masks.offsetV = json.has("offset_v") ? json["offset_v"].number(0, large) : masks.offset;
   const bool pair = masks.arrangement == MaskArrangement::pair;
-  const size_t fewest = masks.arrangement == MaskArrangement::disc ? 4 : 2;
-  for (const JsonPlace& sample : json["samples"].list(fewest, pair ? 2 : mostSamples)) {
+  const bool hard = masks.arrangement == MaskArrangement::hard;
+  const size_t fewest = masks.arrangement == MaskArrangement::disc ? 4 : hard ? 1 : 2;
+  const size_t most = pair ? 2 : hard ? 1 : mostSamples;
+  for (const JsonPlace& sample : json["samples"].list(fewest, most)) {
     masks.samples.push_back(readSample(sample));
   }
   return masks;
@@ -168,6 +171,7 @@ SidecarObject readObject(const JsonPlace& json) {
   if (json.has("materials")) {
     for (const JsonPlace& name : json["materials"].list()) object.materials.push_back(name.text());
   }
+  if (json.has("painted")) object.painted = json["painted"].boolean();
   if (json.has("flat")) object.flat = json["flat"].boolean();
   return object;
 }
@@ -205,6 +209,7 @@ void readFrame(const JsonPlace& json, Sidecar& sidecar) {
   const JsonPlace layers = json["layers"];
   if (layers.has("data")) sidecar.dataLayer = layers["data"].text();
   if (layers.has("beauty")) sidecar.beautyLayer = layers["beauty"].text();
+  if (layers.has("lines")) sidecar.linesLayer = layers["lines"].text();
 }
 
 void readLists(const JsonPlace& json, Sidecar& sidecar) {

@@ -31,11 +31,12 @@ struct MaskSample {
   double u = 0, v = 0;           ///< place on the light in units of the arrangement's offset
 };
 
-enum class MaskArrangement { pair, line, disc };
+enum class MaskArrangement { pair, line, disc, hard };
 
 struct LightMasks {
   MaskArrangement arrangement = MaskArrangement::pair;
-  double offset = 0;  ///< world units; pair: the seed's l; line: half its length; disc: its radius
+  double offset = 0;   ///< world units; pair: the seed's l; line: half its length; disc: its radius
+  double offsetV = 0;  ///< of a stretched disc, along v; else as `offset`
   std::vector<MaskSample> samples;
 };
 
@@ -84,7 +85,8 @@ struct SidecarObject {
   V3d referencePoint{0, 0, 0};                 ///< world space; the first of the next, if any
   std::vector<V3d> referencePoints;            ///< world space; all that the artist marked
   std::vector<std::string> materials;
-  bool flat = false;  ///< thinnest extent below 2 % of the largest
+  bool painted = true;  ///< false: cut or see-through, so the beauty stands there
+  bool flat = false;    ///< thinnest extent below 2 % of the largest
 };
 
 struct SidecarMaterial {
@@ -121,6 +123,7 @@ struct Sidecar {
   int scale = 1;  ///< how many times the shot's own resolution the image has
   std::optional<WholeShot> shot;
   std::string dataLayer, beautyLayer;  ///< "" when not given
+  std::string linesLayer;              ///< of drawn lines that lie over everything; "" for none
   Camera camera;
   std::vector<SidecarLight> lights;
   std::vector<SidecarObject> objects;
