@@ -30,14 +30,17 @@ Strip loadBuiltin(const Colour& colour, const std::string& preset) {
 Strip loadStrip(const Look& look, const Colour& colour, const std::string& name) {
   if (isBuiltinStrip(name)) return loadBuiltin(colour, name.substr(builtinPrefix.size()));
   StripPicture picture = readStrip(look.resolve(name));
-  const std::string space =
-      look.colour.strip.empty() ? std::string(paintedSpace) : look.colour.strip;
+  const std::string space = stripColourSpace(look);
   if (!picture.sceneLinear || !look.colour.strip.empty())
     colour.toWorking(picture.red, picture.green, picture.blue, space);
   return makeStrip(picture.red, picture.green, picture.blue);
 }
 
 }  // namespace
+
+std::string stripColourSpace(const Look& look) {
+  return look.colour.strip.empty() ? std::string(paintedSpace) : look.colour.strip;
+}
 
 bool isBuiltinStrip(const std::string& name) { return name.starts_with(builtinPrefix); }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "colour/colour.h"
+#include "compositor/frame_plan.h"
 #include "compositor/strip_set.h"
 #include "look/look.h"
 #include "sequence/batch.h"
@@ -45,26 +46,32 @@ class CompBatch {
   CompBatch(const Look& look, CompRequest request);
 
   const std::vector<FrameJob>& jobs() const { return jobs_; }
-  /// Runs all jobs in the current TBB arena; `onFrame` is never called twice at a time.
+  /// What the plan has to say beside its jobs, see planFrames.
+  const std::vector<std::string>& notes() const { return notes_; }
+  /// Runs all jobs in the current TBB arena; `onFrame` is never called twice at a time. Frames
+  /// whose outputs were made and are not on the disk any more when all is over come back as `lost`.
   BatchResult run(const std::function<void(const CompEvent&)>& onFrame);
 
  private:
   struct Read;
   struct Composed;
-  Read read(size_t index) const;
+  Read read(size_t index);
   Composed compose(size_t index, Read input);
   void write(size_t index, Composed output) const;
   bool isDone(size_t index);
-  bool isUpToDate(const FrameJob& job) const;
+  bool isUpToDate(const FrameJob& job);
+  void addFilesBeside(const FramePlan& plan, Fingerprint& print);
   /// Of everything that decides a frame's pixels. Files are looked at before they are read, so that
   /// one which changes meanwhile makes the frame stale.
   Fingerprint fingerprint(const FrameJob& job) const;
 
   const Look& look_;
   CompRequest request_;
+  std::vector<std::string> notes_;
   std::vector<FrameJob> jobs_;
   Colour colour_;
   StripSet strips_;
+  FileDigests digests_;
   Fingerprint common_;                              ///< program, look and its files
   std::vector<std::vector<std::string>> warnings_;  ///< by job; written by its own stage only
   std::vector<Thumbnail> thumbnails_;               ///< likewise
