@@ -47,8 +47,7 @@ TEST(HeaderClaims, LaterPartsAreLookedAtToo) {
 TEST(HeaderClaims, WhatIsNoExrIsLeftToTheLibrary) {
   const TestFolder folder;
   for (const std::string& text :
-       {std::string(), start, std::string("text"), start + "name", start + std::string(400, 'n'),
-        start + attribute("a", "int", 4)}) {
+       {std::string(), start, std::string("text"), start + "name", start + std::string(400, 'n')}) {
     const std::string file = folder.write("a.exr", text);
     checkHeaderClaims(file, text.size());
     EXPECT_THROW(openImage(file), InputError);
