@@ -76,6 +76,10 @@ Strip loadStrip(const Look& look, const Colour& colour, const std::string& name)
 
 }  // namespace
 
+std::string stripColourSpace(const Look& look) {
+  return look.colour.strip.empty() ? std::string(paintedSpace) : look.colour.strip;
+}
+
 bool isBuiltinStrip(const std::string& name) { return name.starts_with(builtinPrefix); }
 
 bool multipliesColour(const StyleParams& style) {

@@ -14,6 +14,8 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/plain_file.h"
+#include "exr/header_claims.h"
 
 namespace kagefude {
 namespace {
@@ -175,11 +177,8 @@ void checkClaim(const std::filesystem::path& path, int64_t width, int64_t height
 }
 
 ImageFile openImage(const std::filesystem::path& path) {
-  std::error_code problem;
-  const uint64_t fileBytes = std::filesystem::file_size(path, problem);
-  if (problem) {
-    throw InputError(fmt::format("{} cannot be read: {}", path.string(), problem.message()));
-  }
+  const uint64_t fileBytes = requirePlainFile(path);
+  checkHeaderClaims(path, fileBytes);
   ImageFile file;
   file.path = path;
   auto headers = std::make_shared<std::vector<Imf::Header>>(readHeaders(path));

@@ -42,6 +42,11 @@ struct Manifest {
 };
 Manifest readManifest(const ImageFile& file, const Cryptomatte& cryptomatte);
 
+/// The file beside the image that readManifest would open for its names, whether it is there or
+/// not; nothing when the header holds them itself, names none, or names one outside of the folder.
+std::optional<std::filesystem::path> manifestFile(const ImageFile& file,
+                                                  const Cryptomatte& cryptomatte);
+
 /// Ids and coverage by rank, each of the data window's size. Id 0 is background.
 struct CryptomattePlanes {
   std::vector<Labels> ids;

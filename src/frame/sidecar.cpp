@@ -233,8 +233,9 @@ void readLists(const JsonPlace& json, Sidecar& sidecar) {
 
 }  // namespace
 
-Sidecar readSidecar(const std::filesystem::path& path) {
-  const nlohmann::json parsed = JsonPlace::parseFile(path);
+namespace {
+
+Sidecar sidecarFrom(const nlohmann::json& parsed, const std::filesystem::path& path) {
   const JsonPlace json(path, parsed, "");
   checkVersion(json, path);
   Sidecar sidecar;
@@ -245,12 +246,21 @@ Sidecar readSidecar(const std::filesystem::path& path) {
   return sidecar;
 }
 
+}  // namespace
+
+Sidecar readSidecar(const std::filesystem::path& path) {
+  return sidecarFrom(JsonPlace::parseFile(path), path);
+}
+
 std::optional<Sidecar> findSidecar(const std::filesystem::path& imagePath) {
   std::filesystem::path path = imagePath;
   path.replace_extension(".json");
   std::error_code problem;
   if (!std::filesystem::exists(path, problem)) return std::nullopt;
-  return readSidecar(path);
+  const nlohmann::json parsed = JsonPlace::parseFile(path);
+  // Asset managers and other tools write JSONs beside frames as well.
+  if (!parsed.is_object() || !parsed.contains("kagefude")) return std::nullopt;
+  return sidecarFrom(parsed, path);
 }
 
 const SidecarLight* Sidecar::findLight(std::string_view name) const {

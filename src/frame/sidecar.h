@@ -141,8 +141,8 @@ struct Sidecar {
 /// twice, a mask arrangement has the wrong number of samples, or a path leaves the folder.
 Sidecar readSidecar(const std::filesystem::path& path);
 
-/// The sidecar of a frame: the same path with .json in place of the extension; nothing when there
-/// is no such file. Throws as readSidecar does.
+/// The sidecar of a frame: the same path with .json in place of the extension; nothing without such
+/// a file, or when it is someone else's JSON (no key "kagefude"). Throws as readSidecar does.
 std::optional<Sidecar> findSidecar(const std::filesystem::path& imagePath);
 
 }  // namespace kagefude

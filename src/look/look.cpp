@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 #include "look/override.h"
+#include "look/parse_toml.h"
 #include "look/read_section.h"
 
 namespace kagefude {
@@ -11,10 +13,20 @@ namespace {
 
 constexpr int64_t formatVersion = 1;
 
+constexpr uint64_t largestLook = uint64_t{16} << 20;
+
+/// What "nothing" is called where a file must be named; other devices are no looks.
+bool isNullDevice(const std::filesystem::path& path) {
+  std::error_code missing;
+  return std::filesystem::canonical(path, missing) == "/dev/null";
+}
+
 toml::table parseFile(const std::filesystem::path& path) {
-  if (path.empty()) return {};
+  if (path.empty() || isNullDevice(path)) return {};
   try {
-    return toml::parse_file(path.string());
+    return parseToml(readPlainFile(path, largestLook), path.string());
+  } catch (const InputError& error) {
+    throw LookError(fmt::format("the look {}", error.what()));
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
     const std::string place =
@@ -103,6 +115,10 @@ void readLights(const toml::table& root, Look& look) {
     readSection(*section, lightTable, &light.light, nested);
     if (light.light.name.empty())
       throw LookError(fmt::format("{}: a [[light]] wants a name", placeOf(*section)));
+    for (const LightLook& other : look.lights)
+      if (other.light.name == light.light.name)
+        throw LookError(fmt::format("{}: there are two [[light]] named {}", placeOf(*section),
+                                    light.light.name));
     if (const toml::table* shadow = findSection(*section, shadowTable.pass)) {
       refuseIdle(*shadow, shadowTable.pass, Scope::light);
       readSection(*shadow, shadowTable, &light.shadow);

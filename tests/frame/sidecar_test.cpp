@@ -156,6 +156,20 @@ TEST_F(SidecarTest, ReadsStretchedDiscsHardMasksAndWhatIsNotPainted) {
   EXPECT_EQ(read(changed).lights[0].masks->arrangement, MaskArrangement::hard);
 }
 
+TEST_F(SidecarTest, SomeoneElsesJsonIsNotOurs) {
+  for (const char* text : {R"({"asset": "x"})", "[1, 2]", "7"}) {
+    writeText(folder_ / "shot.0012.json", text);
+    EXPECT_FALSE(findSidecar(folder_ / "shot.0012.exr")) << text;
+  }
+  writeText(folder_ / "shot.0012.json", R"({"kagefude": 1, "fra)");
+  EXPECT_THROW(findSidecar(folder_ / "shot.0012.exr"), InputError) << "ours may be cut";
+}
+
+TEST_F(SidecarTest, DepthIsBound) {
+  writeText(folder_ / "shot.0012.json", std::string(1 << 20, '['));
+  EXPECT_THROW(findSidecar(folder_ / "shot.0012.exr"), InputError);
+}
+
 TEST_F(SidecarTest, StandsBesideItsImage) {
   EXPECT_FALSE(findSidecar(folder_ / "shot.0012.exr"));
   read(example());
