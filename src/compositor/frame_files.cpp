@@ -10,7 +10,7 @@ namespace kagefude {
 namespace {
 
 bool wantsCasters(const FrameLight& light) {
-  return needsCasters(light.method) || light.method == ShadowMethod::blob;
+  return entryOf(light.method).needs.casters || light.method == ShadowMethod::blob;
 }
 
 }  // namespace

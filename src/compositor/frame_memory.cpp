@@ -61,7 +61,7 @@ size_t depthMapBytes(const FramePlan& plan) {
 size_t casterBytes(const FramePlan& plan) {
   constexpr size_t ofMeshFile = 16;
   const auto wantsCasters = [](const FrameLight& light) {
-    return needsCasters(light.method) || light.method == ShadowMethod::blob;
+    return entryOf(light.method).needs.casters || light.method == ShadowMethod::blob;
   };
   if (!plan.hasCasters || std::none_of(plan.lights.begin(), plan.lights.end(), wantsCasters))
     return 0;

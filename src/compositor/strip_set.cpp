@@ -77,7 +77,7 @@ Strip loadStrip(const Look& look, const Colour& colour, const std::string& name)
 }  // namespace
 
 std::string stripColourSpace(const Look& look) {
-  return look.colour.strip.empty() ? std::string(paintedSpace) : look.colour.strip;
+  return look.colour.strip.empty() ? std::string(paintedSpaces[0]) : look.colour.strip;
 }
 
 bool isBuiltinStrip(const std::string& name) { return name.starts_with(builtinPrefix); }

@@ -17,15 +17,23 @@ constexpr size_t fewestPlaces = 64;
 // better; 45 degrees are worth a word even where nothing explains them.
 constexpr float passes = 0.004f, namedWithin = 0.1f, muchBetter = 0.25f, hopeless = 0.3f;
 
+float deviationAt(const SmoothPlace& place, const NormalReading& reading) {
+  const V3f n = reading(place.given);
+  const float length = n.length();
+  return length > 0 ? 1 - n.dot(place.spanned) / length : 2.0f;
+}
+
+float meanDeviation(const std::vector<SmoothPlace>& places, const NormalReading& reading) {
+  double sum = 0;
+  for (const SmoothPlace& place : places) sum += deviationAt(place, reading);
+  return static_cast<float>(sum / static_cast<double>(places.size()));
+}
+
 // Half of the places deviate less than this.
 float middleDeviation(const std::vector<SmoothPlace>& places, const NormalReading& reading) {
   std::vector<float> deviations;
   deviations.reserve(places.size());
-  for (const SmoothPlace& place : places) {
-    const V3f n = reading(place.given);
-    const float length = n.length();
-    deviations.push_back(length > 0 ? 1 - n.dot(place.spanned) / length : 2.0f);
-  }
+  for (const SmoothPlace& place : places) deviations.push_back(deviationAt(place, reading));
   const auto middle = deviations.begin() + static_cast<ptrdiff_t>(deviations.size() / 2);
   std::nth_element(deviations.begin(), middle, deviations.end());
   return *middle;
@@ -38,7 +46,8 @@ bool holdsUnitRange(const std::vector<SmoothPlace>& places) {
   });
 }
 
-// The simplest of the readings that fit about as well as the best.
+// The simplest of the readings that fit about as well as the best. Where a flat ground fills half
+// of the picture many readings fit in the middle; the mean over all places tells them apart.
 std::optional<NormalReading> explain(const std::vector<SmoothPlace>& places,
                                      const std::optional<Transform>& camera, float plain) {
   std::vector<std::pair<float, NormalReading>> tried;
@@ -53,9 +62,15 @@ std::optional<NormalReading> explain(const std::vector<SmoothPlace>& places,
         best = std::min(best, tried.back().first);
       }
   if (best > namedWithin || best > muchBetter * plain) return std::nullopt;
+  std::erase_if(tried, [&](const auto& one) { return one.first > 1.5f * best + 0.002f; });
+  float bestMean = 2;
+  for (auto& [deviation, reading] : tried) {
+    deviation = meanDeviation(places, reading);
+    bestMean = std::min(bestMean, deviation);
+  }
   const NormalReading* simplest = nullptr;
   for (const auto& [deviation, reading] : tried)
-    if (deviation <= 1.5f * best + 0.002f &&
+    if (deviation <= 1.5f * bestMean + 0.002f &&
         (!simplest || reading.departures() < simplest->departures()))
       simplest = &reading;
   return *simplest;

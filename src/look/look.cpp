@@ -150,18 +150,23 @@ void spell(std::string& text, const std::string& heading, const ParameterTable& 
   text += "\n";
 }
 
+/// Without the keys that would be refused there.
+void spellScoped(std::string& text, const std::string& heading, const ParameterTable& table,
+                 Scope scope, const void* values) {
+  text += heading + "\n";
+  for (const Parameter& p : table.parameters)
+    if (actsIn(scope, table.pass, p.name))
+      text += fmt::format("{} = {}\n", p.name, spellValue(p, p.get(values)));
+  text += "\n";
+}
+
 void spellPasses(std::string& text, Scope scope, PassParams params) {
   const std::string prefix =
       scope == Scope::look ? "" : fmt::format("{}.", scopeNames[static_cast<size_t>(scope)]);
   for (const PassEntry& pass : passList()) {
     const std::string_view section = pass.table->pass;
     if (!actsIn(scope, section)) continue;
-    text += fmt::format("[{}{}]\n", prefix, section);
-    const void* values = pass.in(params);
-    for (const Parameter& p : pass.table->parameters)
-      if (actsIn(scope, section, p.name))
-        text += fmt::format("{} = {}\n", p.name, spellValue(p, p.get(values)));
-    text += "\n";
+    spellScoped(text, fmt::format("[{}{}]", prefix, section), *pass.table, scope, pass.in(params));
   }
 }
 
@@ -209,9 +214,7 @@ std::string resolvedText(const Look& look) {
   spellPasses(text, Scope::look, look.passes);
   for (const LightLook& light : look.lights) {
     spell(text, "[[light]]", lightTable, light.light);
-    ShadowParams shadow = light.shadow;
-    shadow.lights = ShadowParams{}.lights;  // holds for the whole look only
-    spell(text, "[light.shadow]", shadowTable, shadow);
+    spellScoped(text, "[light.shadow]", shadowTable, Scope::light, &light.shadow);
     spellPasses(text, Scope::light, light.passes);
   }
   for (const StyleLook& style : look.styles) {

@@ -77,6 +77,8 @@ std::filesystem::path studioConfig(const TemporaryFolder& folder) {
   const size_t at = text.find(views);
   EXPECT_NE(at, std::string::npos);
   text.insert(at + views.size(), "    - !<View> {name: Graded, colorspace: graded}\n");
+  const std::string active = "active_views: [Standard, Raw";
+  text.insert(text.find(active) + active.size(), ", Graded");
   text.insert(0, "search_path: luts\n");
   const size_t first = text.find("ocio_profile_version");
   const size_t end = text.find('\n', first) + 1;

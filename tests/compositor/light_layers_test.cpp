@@ -30,7 +30,9 @@ TEST(LightLayers, WholeNumbersAbove2To24AreDifferentObjects) {
   Labels& index = frame.numbers("IndexOB.X");
   for (int x = 0; x < 4; ++x) index(x, 0) = 16777216u + (x < 2 ? 0u : 1u);
   const FrameResult result = frame.comp("output.layers = [\"surface.id\"]\n");
-  EXPECT_NE(result.surfaceId.view()(1, 0), result.surfaceId.view()(2, 0));
+  ASSERT_EQ(result.layers.size(), 1u);
+  const Labels& ids = result.layers[0].plane.labels;
+  EXPECT_NE(ids(1, 0), ids(2, 0));
 }
 
 TEST(LightLayers, AStripsAlphaIsPainted) {

@@ -27,6 +27,7 @@ class Sweep : public ::testing::Test {
     frame.addObject("Ball", 1, {-4, -1, -1}, {0, 1, 2});
     frame.addObject("Ground", 2, {-4, -3, 0}, {4, 3, 0.01f});
     frame.sidecar["objects"][1]["flat"] = true;
+    frame.addObject("Rise", 3, {-4, -3, -0.3f}, {4, 3, 2.4f});
     frame.sidecar["camera"]["type"] = "orthographic";
     frame.sidecar["camera"]["clip_from_camera"] = {
         {0.25, 0, 0, 0}, {0, 1.0 / 3, 0, 0}, {0, 0, -0.02, -1}, {0, 0, 0, 1}};
@@ -50,7 +51,8 @@ class Sweep : public ::testing::Test {
     }
     frame.setVector("Position", x, y, p);
     frame.setVector("Normal", x, y, n);
-    frame.plane("IndexOB.X")(x, y) = ball ? 1.0f : 2.0f;
+    const bool level = py <= 1.5f && px <= 2;
+    frame.plane("IndexOB.X")(x, y) = ball ? 1.0f : level ? 2.0f : 3.0f;
     for (const char* name : {"DiffCol.R", "DiffCol.G", "DiffCol.B"})
       frame.plane(name)(x, y) = 0.25f + 0.5f * float(x) / width;
   }
@@ -129,10 +131,12 @@ class Sweep : public ::testing::Test {
     add(r.colour.y);
     add(r.colour.z);
     add(r.alpha);
-    for (const NamedPlane& layer : r.layers) add(layer.plane);
-    if (!r.surfaceId.empty())
-      bytes.append(reinterpret_cast<const char*>(r.surfaceId.row(0)),
-                   r.surfaceId.view().pixels() * sizeof(uint32_t));
+    for (const auto& [name, plane] : r.layers) {
+      if (!plane.floats.empty()) add(plane.floats);
+      if (!plane.labels.empty())
+        bytes.append(reinterpret_cast<const char*>(plane.labels.row(0)),
+                     plane.labels.view().pixels() * sizeof(uint32_t));
+    }
     return bytes;
   }
 
@@ -201,7 +205,7 @@ TEST_F(Sweep, EveryKeyOfAPassActsWhereItIsTakenOrIsRefusedByName) {
       const auto companion = companions.find(key);
       const std::string with = companion == companions.end() ? "" : companion->second;
       const std::string end =
-          "[[light]]\nname = \"Key\"\n[[style]]\nstrip = \"builtin:soft\"\n"
+          "[[light]]\nname = \"*\"\n[[style]]\nstrip = \"builtin:soft\"\n"
           "colour = \"replace\"\noutline_colour = [0, 0, 0]\n";
       const std::string look = with + contextOf(section) + end;
       EXPECT_TRUE(acts(with + contextOf(section) +

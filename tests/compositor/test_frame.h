@@ -118,7 +118,7 @@ class TestFrame {
 
   static Floats layer(FrameResult& result, const std::string& name) {
     for (NamedPlane& own : result.layers)
-      if (own.name == name) return std::move(own.plane);
+      if (own.name == name) return std::move(own.plane.floats);
     ADD_FAILURE() << "the result has no layer " << name;
     return {};
   }
