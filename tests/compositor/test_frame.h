@@ -86,8 +86,7 @@ class TestFrame {
     image.dataWindow = image.displayWindow = {0, 0, width_, height_};
     for (const auto& [name, plane] : planes_)
       image.channels.push_back(floatChannel(name, PixelType::single, plane));
-    for (const auto& [name, plane] : labels_)
-      image.channels.push_back(labelChannel(name, plane));
+    for (const auto& [name, plane] : labels_) image.channels.push_back(labelChannel(name, plane));
     const std::filesystem::path path = folder / "frame.exr";
     writeExr(path, image);
     folder.write("frame.json", withJson ? sidecar.dump() : "{}");
