@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs every test.   tests/run.sh [--long]
-# --long adds the tests that take minutes (Blender exports, farm) and the gate: sanitizers and
-# fuzzing. CI sets it.
+# --long adds the tests that take minutes (Blender exports, farm); CI sets it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 long=
@@ -14,7 +13,6 @@ done
 heading() { echo "== $1 (after $((SECONDS / 60)) min $((SECONDS % 60)) s)"; }
 
 .ci/ensure_packages build test render
-[ -z "$long" ] || .ci/ensure_packages gate
 heading "build"
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
 cmake --build --preset release
@@ -33,9 +31,5 @@ for script in "${scripts[@]}"; do
   heading "$script"
   bash "$script"
 done
-if [ -n "$long" ]; then
-  heading "sanitizers and fuzzing"
-  tests/gate.sh
-fi
 heading "done"
 echo "$((${#scripts[@]})) scripts passed, 0 failed"
