@@ -61,6 +61,12 @@ def copy_light_linking(source, lamp):
         lamp.light_linking.blocker_collection = linking.blocker_collection
 
 
+def has_light_linking(light):
+    """Whether the light object picks the objects that it lights or that hide it (4.0 on)."""
+    linking = getattr(light, "light_linking", None)
+    return bool(linking and (linking.receiver_collection or linking.blocker_collection))
+
+
 # Passes ---------------------------------------------------------------------------------------
 
 def pass_name(socket_name):
@@ -162,6 +168,33 @@ def action_curves(action):
         return list(action.fcurves)
     return [curve for layer in action.layers for strip in layer.strips
             for bag in strip.channelbags for curve in bag.fcurves]
+
+
+# Sampling and shaders -------------------------------------------------------------------------
+
+def use_tabulated_sampler(settings):
+    """Take random numbers from a table, as `scrambling_distance` needs; its name changed in 3.5."""
+    for name in ('TABULATED_SOBOL', 'PROGRESSIVE_MULTI_JITTER'):
+        try:
+            settings.sampling_pattern = name
+            return
+        except TypeError:
+            continue
+
+
+def hide_from_raycast(item, hidden):
+    """Let the Raycast node pass through the object, where this Blender can."""
+    set_if_known(item, visible_raycast=not hidden)
+
+
+def has_raycast_node():
+    """The shader node Raycast came with 5.1."""
+    return hasattr(bpy.types, "ShaderNodeRaycast")
+
+
+def can_hide_from_raycast():
+    """From 5.2 an object may be left out of the Raycast node's rays; before, all were hit."""
+    return hasattr(bpy.types.Object, "visible_raycast")
 
 
 # Anything -------------------------------------------------------------------------------------

@@ -4,34 +4,36 @@
 from . import light_offset, mask_positions, vectors
 from .arguments import Arrangement
 from .errors import ExportError
-from .light_state import (area_extents, new_mask_lamp, new_truth_lamp, place_mask_lamp, place_truth_lamp,
-                          read_light, travel_direction, TYPES)
-from .output_names import mask_layer, truth_layer
+from .light_state import (area_extents, new_truth_lamp, place_truth_lamp, read_light,
+                          travel_direction)
+from .output_names import traced_layer, truth_layer
 from .subject import Sphere
 
 
 class LightRig:
-    def __init__(self, light, name, key, masked, sized, options, data):
+    def __init__(self, light, name, key, masked, sized, options, data, backends):
         """`name` is the light's own in the JSON; a light that is not `masked` casts no shadow.
 
         One that is never `sized` gets its one hard mask, unless an offset is asked for.
         """
         self.light, self.name, self.key, self.masked, self.options = light, name, key, masked, options
-        hard = not sized and not options.offset
+        hard = not sized and not options.offset and options.masks.kind != "trace"
         self.arrangement = Arrangement("hard", 1) if hard else options.masks
-        self.mask_lamps, self.truth_lamps = {}, []
+        self.masks, self.truth_lamps = None, []
         if not masked:
             return
         self._refuse_what_cannot_work()
-        kind = TYPES[light.data.type]
-        for number in range(self.arrangement.count):
-            layer = mask_layer(key, number)
-            self.mask_lamps[layer] = new_mask_lamp(light, kind, layer)
-            data.add_shadow_layer(layer, self.mask_lamps[layer])
+        if options.masks.kind == "trace":
+            self._trace(data, traced_layer(key), options.masks.count)
+        else:
+            self.masks = backends.masks_of(light, key, self.arrangement.count)
         if options.truth_samples:
-            layer = truth_layer(key)
-            self.truth_lamps = [new_truth_lamp(light, layer, shadow) for shadow in (True, False)]
-            data.add_truth_layer(layer, *self.truth_lamps, options.truth_samples)
+            self._trace(data, truth_layer(key), options.truth_samples)
+
+    def _trace(self, data, layer, samples):
+        lamps = [new_truth_lamp(self.light, layer, shadow) for shadow in (True, False)]
+        self.truth_lamps += lamps
+        data.add_truth_layer(layer, *lamps, samples)
 
     def place(self, depsgraph, aim, radius):
         """Move the lamps to this frame's places; returns (light state, JSON entry).
@@ -47,9 +49,12 @@ class LightRig:
         entry = self._describe(state, travel, subject, evaluated)
         places = mask_positions.places_on_light(self.arrangement, travel, state.surface_axes)
         entry["axes"] = {"u": list(places.u_axis), "v": list(places.v_axis)}
-        if self.masked:
+        if self.masks:
             self._place_masks(state, travel, places, subject, entry)
-        if self.truth_lamps:
+        elif self.masked:
+            entry["traced"] = {"layer": traced_layer(self.key),
+                               "samples": self.options.masks.count}
+        if self.masked and self.options.truth_samples:
             entry["truth_layer"] = truth_layer(self.key)
             entry["truth_samples"] = self.options.truth_samples
         return state, entry
@@ -74,8 +79,8 @@ class LightRig:
     def _place_masks(self, state, travel, places, subject, entry):
         masks = self.arrangement
         offset, offset_v = self._offsets(state, subject, entry)
-        samples = []
-        for (layer, lamp), place in zip(self.mask_lamps.items(), places.places):
+        samples, stretch = [], offset_v / offset
+        for number, (layer, place) in enumerate(zip(self.masks.names, places.places)):
             sample = {"layer": layer, "uv": list(place)}
             direction = None
             if state.kind == "sun":
@@ -83,11 +88,12 @@ class LightRig:
                 sample["direction"] = list(direction)
             else:
                 position = mask_positions.mask_position(
-                    state.position, places, (place[0], place[1] * offset_v / offset), offset)
+                    state.position, places, (place[0], place[1] * stretch), offset)
                 sample["position"] = list(position)
-            place_mask_lamp(lamp, state, sample.get("position", entry["position"]), direction)
+            self.masks.place(number, state, sample.get("position", entry["position"]), direction)
             samples.append(sample)
-        entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples}
+        entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples,
+                          "by": self.masks.by}
         if offset_v != offset:
             entry["masks"]["offset_v"] = offset_v
 
