@@ -88,7 +88,7 @@ class MaskBackends(BlenderCase):
         shot = self.build(SCENE + lines)
         said = self.export(shot, "--masks", "disc:5", "--masks-by", by, "--light", "Spot",
                            "--light", "Sun")
-        return self.masks("out/s")[1], [note for note in self.notes(said) if "masks" in note]
+        return self.masks("out/s")[1], [note for note in self.notes(said) if "masks of light" in note]
 
     def assert_layers(self, lines, words, lights=("Spot", "Sun"), by="auto"):
         ways, notes = self.ways(lines, by)
