@@ -315,8 +315,8 @@ std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
   }
   if (chosen.empty())
     throw InputError(fmt::format(
-        "no light takes part: shadow.lights asks for {}, the frame has {}{}",
-        listNames(look.shadow.lights), listNames(names),
+        "no light takes part in {}: shadow.lights asks for {}, the frame has {}{}",
+        image.path.filename().string(), listNames(look.shadow.lights), listNames(names),
         names.empty() ? "; export a light with the frame, or describe one in the look" : ""));
   std::vector<LightWeight*> weights;
   for (FrameLight& light : chosen) weights.push_back(&light.weight);
