@@ -41,7 +41,7 @@ def _of_object(by, item):
            for system in item.particle_systems):
         return "has hair"
     if by != "groups" and not item.visible_shadow:
-        return "casts no shadow, which the Raycast node learns in Blender 5.2"
+        return "casts no shadow, which rays of a shader node cannot tell to the pixel"
     for slot in item.material_slots:
         if slot.material and mask_materials.blocks_otherwise(slot.material):
             return f"has the material '{slot.material.name}', which has holes, displacement or fog"
