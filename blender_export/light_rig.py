@@ -17,7 +17,7 @@ class LightRig:
         One that is never `sized` gets its one hard mask, unless an offset is asked for.
         """
         self.light, self.name, self.key, self.masked, self.options = light, name, key, masked, options
-        hard = not sized and not options.offset
+        hard = not sized and not options.offset and options.masks.kind != "trace"
         self.arrangement = Arrangement("hard", 1) if hard else options.masks
         self.masks, self.truth_lamps = None, []
         if not masked:
@@ -79,7 +79,7 @@ class LightRig:
     def _place_masks(self, state, travel, places, subject, entry):
         masks = self.arrangement
         offset, offset_v = self._offsets(state, subject, entry)
-        samples = []
+        samples, stretch = [], offset_v / offset
         for number, (layer, place) in enumerate(zip(self.masks.names, places.places)):
             sample = {"layer": layer, "uv": list(place)}
             direction = None
@@ -88,7 +88,7 @@ class LightRig:
                 sample["direction"] = list(direction)
             else:
                 position = mask_positions.mask_position(
-                    state.position, places, (place[0], place[1] * offset_v / offset), offset)
+                    state.position, places, (place[0], place[1] * stretch), offset)
                 sample["position"] = list(position)
             self.masks.place(number, state, sample.get("position", entry["position"]), direction)
             samples.append(sample)

@@ -16,11 +16,12 @@ int report(Console& console, const std::exception& error, int code) {
 }
 
 /// An empty value is a script's unset variable more often than a wish, and would be taken for "not
-/// given".
+/// given". An empty look is one, though: all defaults.
 void refuseEmptyValues(CLI::App& app) {
   for (CLI::App* command : app.get_subcommands({})) {
     for (CLI::Option* option : command->get_options())
-      if (option->get_expected_max() > 0 && option->get_items_expected_max() > 0)
+      if (option->get_name() != "look" && option->get_expected_max() > 0 &&
+          option->get_items_expected_max() > 0)
         option->check([](const std::string& value) {
           return value.empty() ? std::string("the value is empty") : std::string();
         });

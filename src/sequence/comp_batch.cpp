@@ -45,7 +45,7 @@ void removeLeftoversOf(const std::vector<FrameJob>& jobs) {
 
 /// What is the same for all frames of a run. Of the colour configuration that is what its
 /// transforms in use do, so this also refuses those that cannot be made; the others do not matter.
-Fingerprint commonFingerprint(const Look& look, const Colour& colour, bool shown) {
+Fingerprint commonFingerprint(const Look& look, const Colour& colour) {
   Fingerprint print;
   print.add("version", KAGEFUDE_VERSION).add("look", resolvedText(look));
   for (const StyleLook& style : look.styles)
@@ -53,7 +53,6 @@ Fingerprint commonFingerprint(const Look& look, const Colour& colour, bool shown
   if (!colour.file().empty()) print.addFile("colour", colour.file());
   const std::string stripSpace = stripColourSpace(look);
   if (colour.hasSpace(stripSpace)) print.add("strip space", colour.toWorkingId(stripSpace));
-  if (shown) print.add("view", colour.toDisplayId(look.colour.display, look.colour.view));
   return print;
 }
 
@@ -133,8 +132,10 @@ CompBatch::CompBatch(const Look& look, CompRequest request)
       jobs_(planFrames(request_.plan, &notes_)),
       colour_(look.colourConfig()),
       strips_(look, colour_),
-      common_(commonFingerprint(look, colour_,
-                                request_.plan.outputs.size() > 1 || request_.thumbnails)),
+      common_(commonFingerprint(look, colour_)),
+      view_(request_.plan.outputs.size() > 1 || request_.thumbnails
+                ? colour_.toDisplayId(look.colour.display, look.colour.view)
+                : std::string()),
       planned_(jobs_.size()),
       warnings_(jobs_.size()),
       thumbnails_(jobs_.size()),
@@ -170,6 +171,10 @@ Fingerprint CompBatch::fingerprint(const FrameJob& job) const {
   return print;
 }
 
+std::string CompBatch::previewFingerprint(const std::string& frame) const {
+  return Fingerprint().add("frame", frame).add("view", view_).hex();
+}
+
 CompBatch::Planned& CompBatch::planned(size_t index) {
   std::unique_ptr<Planned>& slot = planned_[index];
   if (slot) return *slot;
@@ -193,7 +198,8 @@ bool CompBatch::isUpToDate(size_t index) {
     if (!isWholeExr(job.outputs.front())) return false;
     if (openImage(job.outputs.front()).text(kFingerprintAttribute) != print.hex()) return false;
     for (size_t i = 1; i < job.outputs.size(); ++i)
-      if (readPngText(job.outputs[i], kFingerprintAttribute) != print.hex()) return false;
+      if (readPngText(job.outputs[i], kFingerprintAttribute) != previewFingerprint(print.hex()))
+        return false;
     return true;
   } catch (const InputError&) {
     return false;  // what cannot be read is not done
@@ -237,7 +243,8 @@ void CompBatch::write(size_t index, Composed output) const {
       {kFingerprintAttribute, output.fingerprint}};
   for (size_t i = 1; i < paths.size(); ++i) {
     makeFolders(paths[i].parent_path());
-    writePreview(look_, colour_, output.result, paths[i], attributes);
+    writePreview(look_, colour_, output.result, paths[i],
+                 {{kFingerprintAttribute, previewFingerprint(output.fingerprint)}});
   }
   makeFolders(paths.front().parent_path());
   writeFrame(look_, output.plan, output.result, paths.front(), attributes);

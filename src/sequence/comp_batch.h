@@ -74,6 +74,8 @@ class CompBatch {
   /// Of everything that decides a frame's pixels. Files are looked at before they are read, so that
   /// one which changes meanwhile makes the frame stale.
   Fingerprint fingerprint(const FrameJob& job) const;
+  /// Of a preview beside the frame, which a change of the view makes stale but not the frame.
+  std::string previewFingerprint(const std::string& frame) const;
 
   const Look& look_;
   CompRequest request_;
@@ -83,6 +85,7 @@ class CompBatch {
   StripSet strips_;
   FileDigests digests_;
   Fingerprint common_;                              ///< program, look and its files
+  std::string view_;                                ///< what previews are shown through
   std::vector<std::unique_ptr<Planned>> planned_;   ///< by job, from its plan to its reading
   std::vector<std::vector<std::string>> warnings_;  ///< by job; written by its own stage only
   std::vector<Thumbnail> thumbnails_;               ///< likewise

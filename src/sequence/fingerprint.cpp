@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/files_read.h"
+#include "base/plain_file.h"
 
 namespace kagefude {
 namespace {
@@ -96,8 +97,7 @@ Fingerprint& Fingerprint::addFile(std::string_view label, const std::filesystem:
   const OpenFile opened(file);
   if (!opened.exists()) return add("missing", "");
   const struct stat status = opened.status();
-  if (!S_ISREG(status.st_mode))
-    throw InputError(fmt::format("cannot read {}: it is not a regular file", file.string()));
+  if (!S_ISREG(status.st_mode)) requirePlainFile(file);
   const int64_t size = status.st_size;
   noteFileRead(file);
   add("size", size);

@@ -180,6 +180,7 @@ std::string contextOf(const std::string& section) {
 const std::map<std::string, std::string> companions = {
     {"pair.step", "pair.search = \"grid\"\n"},
     {"pair.adaptive", "pair.search = \"grid\"\npair.step = 8\n"},
+    {"outline.objects", "outline.depth_step = 0\noutline.crease_angle = 180\n"},
     {"brush.blend_width", "brush.mapping = \"polar\"\n"},
     {"brush.pole_fade", "brush.mapping = \"polar\"\n"},
     {"brush.strip_pixels", "brush.size = \"screen\"\n"},

@@ -39,7 +39,7 @@ for i in $(seq 40); do
   cp in/shot.0001.exr "$(printf 'many/m.%04d.exr' "$i")"
   cp in/shot.0001.json "$(printf 'many/m.%04d.json' "$i")"
 done
-( while [ ! -f gone/m.0004.exr ]; do sleep 0.005; done; rm -rf gone ) &
+( while [ ! -f gone/m.0004.exr ]; do sleep 0.005; done; until rm -rf gone 2>/dev/null; do :; done ) &
 watcher=$!
 code=$(exit_code run comp look.toml 'many/m.####.exr' -o 'gone/m.####.exr' --threads 1 --progress plain)
 wait "$watcher"
