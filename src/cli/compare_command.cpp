@@ -8,9 +8,9 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "cli/commands.h"
-#include "frame/read_channels.h"
-#include "frame/write_image.h"
-#include "passes/compare_planes.h"
+#include "exr/read_channels.h"
+#include "exr/write_image.h"
+#include "passes/measure/compare_planes.h"
 
 namespace kagefude {
 namespace {

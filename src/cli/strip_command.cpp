@@ -9,12 +9,12 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "cli/commands.h"
-#include "frame/strip_file.h"
-#include "frame/write_image.h"
+#include "exr/write_image.h"
 #include "look/override.h"
 #include "look/read_section.h"
-#include "passes/strip_check.h"
-#include "passes/strip_paint.h"
+#include "passes/strip/strip_check.h"
+#include "passes/strip/strip_paint.h"
+#include "picture/strip_file.h"
 
 namespace kagefude {
 namespace {

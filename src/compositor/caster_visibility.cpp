@@ -7,9 +7,9 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "frame/casters.h"
-#include "frame/strip_file.h"
 #include "image/parallel.h"
-#include "passes/disc_places.h"
+#include "passes/light_shape/disc_places.h"
+#include "picture/strip_file.h"
 
 namespace kagefude {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "passes/camera_rays.h"
-#include "passes/caster_set.h"
+#include "passes/casters/camera_rays.h"
+#include "passes/casters/caster_set.h"
 
 namespace kagefude {
 

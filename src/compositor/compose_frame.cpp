@@ -10,7 +10,7 @@
 #include "compositor/paint_styles.h"
 #include "compositor/styled_surfaces.h"
 #include "image/parallel.h"
-#include "passes/surfaces.h"
+#include "passes/tone/surfaces.h"
 
 namespace kagefude {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frame/draw_text.h"
-#include "frame/write_image.h"
+#include "exr/write_image.h"
 #include "image/parallel.h"
-#include "passes/classes.h"
+#include "passes/search/classes.h"
+#include "picture/draw_text.h"
 
 namespace kagefude {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "colour/colour.h"
 #include "compositor/stage_sink.h"
-#include "frame/colour.h"
 #include "look/sections.h"
 
 namespace kagefude {

@@ -5,8 +5,8 @@
 #include <unordered_map>
 
 #include "image/parallel.h"
-#include "passes/coverage_blend.h"
-#include "passes/outline.h"
+#include "passes/edges/coverage_blend.h"
+#include "passes/edges/outline.h"
 
 namespace kagefude {
 namespace {

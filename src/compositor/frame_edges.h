@@ -2,7 +2,7 @@
 
 #include "compositor/frame_plan.h"
 #include "compositor/styled_surfaces.h"
-#include "passes/brush_map.h"
+#include "passes/brush/brush_map.h"
 
 namespace kagefude {
 

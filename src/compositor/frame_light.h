@@ -8,8 +8,8 @@
 #include "frame/aov_resolver.h"
 #include "frame/sidecar.h"
 #include "look/look.h"
-#include "passes/light.h"
-#include "passes/light_shape.h"
+#include "passes/light_shape/light_shape.h"
+#include "passes/tone/light.h"
 
 namespace kagefude {
 

@@ -44,5 +44,4 @@ struct FramePlan {
 /// what is missing; nothing of the size of the picture is allocated.
 FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame);
 
-
 }  // namespace kagefude

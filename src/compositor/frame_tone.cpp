@@ -5,8 +5,8 @@
 #include "base/glob.h"
 #include "compositor/light_visibility.h"
 #include "image/parallel.h"
-#include "passes/lambert.h"
-#include "passes/merge.h"
+#include "passes/tone/lambert.h"
+#include "passes/tone/merge.h"
 
 namespace kagefude {
 namespace {

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "compositor/caster_visibility.h"
-#include "passes/classes.h"
-#include "passes/horizon.h"
-#include "passes/light_shape.h"
-#include "passes/pair_search.h"
-#include "passes/pcf.h"
-#include "passes/pcss.h"
-#include "passes/smooth.h"
+#include "passes/depth_map/pcf.h"
+#include "passes/depth_map/pcss.h"
+#include "passes/light_shape/horizon.h"
+#include "passes/light_shape/light_shape.h"
+#include "passes/search/classes.h"
+#include "passes/search/pair_search.h"
+#include "passes/tone/smooth.h"
 
 namespace kagefude {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
-#include "frame/read_channels.h"
 #include "image/parallel.h"
 
 namespace kagefude {

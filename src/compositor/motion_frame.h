@@ -3,7 +3,7 @@
 #include <map>
 
 #include "compositor/frame_plan.h"
-#include "passes/warp_error.h"
+#include "passes/measure/warp_error.h"
 
 namespace kagefude {
 

@@ -3,7 +3,7 @@
 #include "compositor/frame_planes.h"
 #include "compositor/strip_set.h"
 #include "compositor/styled_surfaces.h"
-#include "passes/brush_map.h"
+#include "passes/brush/brush_map.h"
 
 namespace kagefude {
 

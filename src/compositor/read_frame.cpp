@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "compositor/caster_visibility.h"
+#include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
-#include "frame/read_channels.h"
 #include "frame/sanitise.h"
 #include "image/parallel.h"
 

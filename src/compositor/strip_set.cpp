@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
-#include "frame/strip_file.h"
 #include "image/parallel.h"
-#include "passes/strip_paint.h"
+#include "passes/strip/strip_paint.h"
+#include "picture/strip_file.h"
 
 namespace kagefude {
 namespace {

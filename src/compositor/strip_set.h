@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "frame/colour.h"
+#include "colour/colour.h"
 #include "look/look.h"
-#include "passes/strip.h"
+#include "passes/strip/strip.h"
 
 namespace kagefude {
 

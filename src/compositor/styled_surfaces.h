@@ -5,8 +5,8 @@
 
 #include "compositor/frame_plan.h"
 #include "compositor/strip_set.h"
-#include "passes/brush_anchor.h"
-#include "passes/tone.h"
+#include "passes/brush/brush_anchor.h"
+#include "passes/tone/tone.h"
 
 namespace kagefude {
 
@@ -20,11 +20,11 @@ struct StyledSurfaces {
   std::vector<std::optional<V3f>> outlines;  ///< per anchor: colour of its outlines
 };
 
-/// Gives every object (and material, where styles ask) the style that matches (chooseStyle), or the look's
-/// own brush with the built-in strip, and lays its anchor by the sidecar's bounds and reference
-/// point. Objects that no sidecar describes are anchored at the middle of their visible pixels'
-/// bounds; `plan.warnings` is the caller's to extend with the returned `warnings`. Anchors are
-/// numbered by their first pixel in reading order. Throws InputError beyond 65,535 anchors,
+/// Gives every object (and material, where styles ask) the style that matches (chooseStyle), or the
+/// look's own brush with the built-in strip, and lays its anchor by the sidecar's bounds and
+/// reference point. Objects that no sidecar describes are anchored at the middle of their visible
+/// pixels' bounds; `plan.warnings` is the caller's to extend with the returned `warnings`. Anchors
+/// are numbered by their first pixel in reading order. Throws InputError beyond 65,535 anchors,
 /// LookError when a style names a light that does not take part.
 StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const FramePlan& plan,
                              const FramePlanes& planes, std::vector<std::string>& warnings);

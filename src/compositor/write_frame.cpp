@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "frame/read_channels.h"
-#include "frame/write_image.h"
+#include "exr/read_channels.h"
+#include "exr/write_image.h"
 
 namespace kagefude {
 namespace {

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <map>
 
+#include "colour/colour.h"
 #include "compositor/frame_plan.h"
 #include "compositor/frame_result.h"
-#include "frame/colour.h"
 
 namespace kagefude {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/parameter.h"
-#include "frame/image_file.h"
+#include "exr/image_file.h"
 
 namespace kagefude {
 

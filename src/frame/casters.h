@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "passes/caster_mesh.h"
+#include "passes/casters/caster_mesh.h"
 
 namespace kagefude {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "frame/image_file.h"
-#include "frame/read_channels.h"
+#include "exr/image_file.h"
+#include "exr/read_channels.h"
 #include "image/plane.h"
 
 namespace kagefude {

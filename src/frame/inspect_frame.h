@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "exr/image_file.h"
 #include "frame/aov_resolver.h"
-#include "frame/image_file.h"
 
 namespace kagefude {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/temp_file.h"
-#include "frame/write_image.h"
+#include "exr/write_image.h"
 #include "image/parallel.h"
 #include "image/real_math.h"
 #include "image/vec.h"

@@ -3,7 +3,8 @@
 /// Marks a function that is compiled for several instruction sets and picked when the program
 /// starts. With -ffp-contract=off, and no reordering of sums, all of them give the same bits.
 /// tests/e2e/dispatch_test.sh compares them; for that KAGEFUDE_ONE_LEVEL names the only one to
-/// compile, and KAGEFUDE_PLAIN leaves them all out. Left out under sanitizers, which instrument the resolver before they are ready.
+/// compile, and KAGEFUDE_PLAIN leaves them all out. Left out under sanitizers, which instrument the
+/// resolver before they are ready.
 #if defined(KAGEFUDE_PLAIN)
 #define KAGEFUDE_CLONES
 #elif defined(KAGEFUDE_ONE_LEVEL)

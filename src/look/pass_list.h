@@ -2,21 +2,21 @@
 
 #include <span>
 
-#include "passes/brush_params.h"
-#include "passes/coverage.h"
-#include "passes/lambert.h"
-#include "passes/light_shape.h"
-#include "passes/merge.h"
-#include "passes/outline.h"
-#include "passes/pair_search.h"
-#include "passes/pcf.h"
-#include "passes/pcss.h"
-#include "passes/planar_projection.h"
-#include "passes/shadow_volume.h"
-#include "passes/smooth.h"
-#include "passes/surfaces.h"
-#include "passes/texture_shadow.h"
-#include "passes/tone.h"
+#include "passes/brush/brush_params.h"
+#include "passes/casters/coverage.h"
+#include "passes/casters/planar_projection.h"
+#include "passes/casters/shadow_volume.h"
+#include "passes/casters/texture_shadow.h"
+#include "passes/depth_map/pcf.h"
+#include "passes/depth_map/pcss.h"
+#include "passes/edges/outline.h"
+#include "passes/light_shape/light_shape.h"
+#include "passes/search/pair_search.h"
+#include "passes/tone/lambert.h"
+#include "passes/tone/merge.h"
+#include "passes/tone/smooth.h"
+#include "passes/tone/surfaces.h"
+#include "passes/tone/tone.h"
 
 namespace kagefude {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/parameter.h"
-#include "frame/write_image.h"
+#include "exr/write_image.h"
 
 // The look's sections that are not a pass's own parameters. Each is declared once, here.
 namespace kagefude {
@@ -47,9 +47,8 @@ inline constexpr Parameter shadowParameters[] = {
     plain<&ShadowParams::lights>("lights", "names or globs of the lights that take part"),
     number<&ShadowParams::strength>("strength", 0, 1, "",
                                     "share of the light that a full shadow takes away"),
-    number<&ShadowParams::places>(
-        "places", 5, 65, "",
-        "places on the light's disc that method places cuts masks from"),
+    number<&ShadowParams::places>("places", 5, 65, "",
+                                  "places on the light's disc that method places cuts masks from"),
     plain<&ShadowParams::receiver>("receiver",
                                    "object that planar shadows and blobs fall on; flat"),
     plain<&ShadowParams::blob>(

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "frame/draw_plot.h"
+#include "picture/draw_plot.h"
 #include "sequence/check_sequence.h"
 
 namespace kagefude {

@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "compositor/motion_frame.h"
-#include "frame/read_channels.h"
-#include "passes/stroke_measure.h"
+#include "exr/read_channels.h"
+#include "passes/measure/stroke_measure.h"
 #include "sequence/frame_range.h"
 
 namespace kagefude {

@@ -10,7 +10,7 @@
 #include "compositor/frame_memory.h"
 #include "compositor/read_frame.h"
 #include "compositor/write_frame.h"
-#include "frame/png_file.h"
+#include "picture/png_file.h"
 #include "sequence/frame_thumbnail.h"
 
 namespace kagefude {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "colour/colour.h"
 #include "compositor/strip_set.h"
-#include "frame/colour.h"
 #include "look/look.h"
 #include "sequence/batch.h"
 #include "sequence/fingerprint.h"

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
-#include "frame/atomic_file.h"
-#include "frame/png_file.h"
-#include "frame/read_channels.h"
+#include "exr/read_channels.h"
+#include "picture/png_file.h"
 
 namespace kagefude {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "frame/colour.h"
+#include "colour/colour.h"
 #include "image/vec.h"
 #include "look/look.h"
 #include "sequence/report.h"

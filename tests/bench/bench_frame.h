@@ -4,7 +4,7 @@
 
 #include "image/parallel.h"
 #include "image/plane.h"
-#include "passes/classes.h"
+#include "passes/search/classes.h"
 
 // A synthetic frame of any size: a ground and 20 discs, and across all of them shadows with soft
 // rims, about a quarter of the pixels in penumbra.

@@ -8,8 +8,8 @@
 
 #include <cmath>
 
-#include "passes/brush_map.h"
-#include "passes/strip_paint.h"
+#include "passes/brush/brush_map.h"
+#include "passes/strip/strip_paint.h"
 
 // The brush pass on a 4K frame of 21 balls, each with its own strip, on two threads, against
 // OpenCV's phase (angle of every pixel) and remap (one bilinear lookup of every pixel).
@@ -129,7 +129,10 @@ void openCv(benchmark::State& state, int lookups) {
 void openCvPhaseRemap(benchmark::State& state) { openCv(state, 1); }
 void openCvPhaseTwoRemaps(benchmark::State& state) { openCv(state, 2); }
 BENCHMARK(openCvPhaseRemap)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(openCvPhaseTwoRemaps)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(openCvPhaseTwoRemaps)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 #endif
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "passes/coverage.h"
+#include "passes/casters/coverage.h"
 
 // Coverage of a 2K frame against tracing 64 shadow rays a pixel with Embree, which is given the
 // same surface points: the pixel's plane at 8x8 sub-pixels, from P and N.

@@ -8,7 +8,7 @@
 #include "bench_frame.h"
 #include "contest.h"
 #include "image/clones.h"
-#include "passes/nearest_site.h"
+#include "passes/search/nearest_site.h"
 #ifdef KAGEFUDE_HAVE_OPENCV
 #include <opencv2/imgproc.hpp>
 #endif

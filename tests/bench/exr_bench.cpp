@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "contest.h"
-#include "frame/exr_fast_read.h"
-#include "frame/exr_fast_write.h"
+#include "exr/fast_read.h"
+#include "exr/fast_write.h"
 #include "image/parallel.h"
 
 namespace kagefude {
@@ -185,7 +185,7 @@ void exrRead4K20(benchmark::State& state) {
   }
   for (auto _ : state) {
     const auto t = bench::contest({[&] { fastRead(path, 20); }, [&] { oiioRead(path, false); },
-                            [&] { oiioRead(path, true); }, [&] { fastRead(path, 4); }});
+                                   [&] { oiioRead(path, true); }, [&] { fastRead(path, 4); }});
     state.counters["ours_ms"] = 1e3 * t[0];
     state.counters["ours_4ch_ms"] = 1e3 * t[3];
     state.counters["oiio_ms"] = 1e3 * t[1];
@@ -211,13 +211,14 @@ void exrWrite(benchmark::State& state) {
     sizes[static_cast<int>(effort)] = static_cast<double>(std::filesystem::file_size(ours));
   };
   for (auto _ : state) {
-    const auto t = bench::contest({[&] { write(ExrEffort::fast); }, [&] { write(ExrEffort::balanced); },
-                            [&] { write(ExrEffort::small); },
-                            [&] {
-                              const auto output = OIIO::ImageOutput::create(theirs);
-                              output->open(theirs, specOf(channels));
-                              output->write_image(OIIO::TypeFloat, pixels.get());
-                            }});
+    const auto t =
+        bench::contest({[&] { write(ExrEffort::fast); }, [&] { write(ExrEffort::balanced); },
+                        [&] { write(ExrEffort::small); },
+                        [&] {
+                          const auto output = OIIO::ImageOutput::create(theirs);
+                          output->open(theirs, specOf(channels));
+                          output->write_image(OIIO::TypeFloat, pixels.get());
+                        }});
     const auto oiioSize = static_cast<double>(std::filesystem::file_size(theirs));
     const char* const labels[3] = {"fast", "balanced", "small"};
     for (int i = 0; i < 3; ++i) {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "passes/light_shape.h"
+#include "passes/light_shape/light_shape.h"
 #ifdef KAGEFUDE_HAVE_OPENCV
 #include <opencv2/imgproc.hpp>
 #endif

@@ -2,8 +2,8 @@
 // 32 taps a pixel, compare and add count them. 3840 x 2160, a map of 2048 x 2048, two threads.
 #include "bench_frame.h"
 #include "contest.h"
-#include "passes/map_taps.h"
-#include "passes/pcf.h"
+#include "passes/depth_map/map_taps.h"
+#include "passes/depth_map/pcf.h"
 #ifdef KAGEFUDE_HAVE_OPENCV
 #include <opencv2/imgproc.hpp>
 

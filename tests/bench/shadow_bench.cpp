@@ -3,11 +3,11 @@
 #include <cmath>
 #include <random>
 
-#include "passes/classes.h"
-#include "passes/pair_search.h"
-#include "passes/pcf.h"
-#include "passes/smooth.h"
-#include "passes/surfaces.h"
+#include "passes/depth_map/pcf.h"
+#include "passes/search/classes.h"
+#include "passes/search/pair_search.h"
+#include "passes/tone/smooth.h"
+#include "passes/tone/surfaces.h"
 
 // Ratios within one run are what counts: the pair search must take under 1/20 of the naive
 // nearest-pixel search of the same frame.

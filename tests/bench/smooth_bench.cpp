@@ -2,8 +2,8 @@
 // objects, two threads.
 #include "bench_frame.h"
 #include "contest.h"
-#include "passes/nearest_site.h"
-#include "passes/smooth.h"
+#include "passes/search/nearest_site.h"
+#include "passes/tone/smooth.h"
 #ifdef KAGEFUDE_HAVE_OPENCV
 #include <opencv2/imgproc.hpp>
 

@@ -3,9 +3,9 @@
 // quarter of the pixels.
 #include "contest.h"
 #include "image/parallel.h"
-#include "passes/pair_search.h"
-#include "passes/smooth.h"
-#include "passes/surfaces.h"
+#include "passes/search/pair_search.h"
+#include "passes/tone/smooth.h"
+#include "passes/tone/surfaces.h"
 
 namespace kagefude::bench {
 namespace {

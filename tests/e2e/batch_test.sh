@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/frames.sh"
 
 make_frames "$work/in" 24
 oiiotool --pattern fill:topleft=0.1,0.1,0.3:topright=0.1,0.1,0.3:bottomleft=1,0.9,0.8:bottomright=1,0.9,0.8 64x64 3 -d uint8 -o "$work/strip.png"
-cp src/frame/config.ocio "$work/config.ocio"
+cp src/colour/config.ocio "$work/config.ocio"
 cat >"$work/look.toml" <<'LOOK'
 [output]
 layers = ["visibility.*", "brush.tone"]

@@ -1,6 +1,6 @@
 #include "frame/aov_resolver.h"
 
-#include "frame_fixtures.h"
+#include "frame/frame_fixtures.h"
 
 namespace kagefude {
 namespace {

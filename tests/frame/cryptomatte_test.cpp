@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "frame_fixtures.h"
+#include "frame/frame_fixtures.h"
 
 namespace kagefude {
 namespace {

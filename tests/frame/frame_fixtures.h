@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "frame/write_image.h"
+#include "exr/write_image.h"
+#include "source_folder.h"
 
 namespace kagefude::testing {
 
@@ -78,7 +79,7 @@ inline void expectContains(const std::string& text, const std::string& part) {
 
 /// Sample files that are not part of the repository.
 inline std::filesystem::path sampleFolder() {
-  return std::filesystem::path(KAGEFUDE_SOURCE_DIR) / ".." / "shared" / "data";
+  return kagefude::testing::sourceFolder() / ".." / "shared" / "data";
 }
 
 #define KAGEFUDE_NEEDS_SAMPLES()                                           \

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "frame_fixtures.h"
+#include "frame/frame_fixtures.h"
 
 namespace kagefude {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
 #include "frame/inspect_frame.h"
-#include "frame/read_channels.h"
-#include "frame_fixtures.h"
+#include "frame/frame_fixtures.h"
 
 namespace kagefude {
 namespace {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frame/cryptomatte.h"
-#include "frame_fixtures.h"
+#include "frame/frame_fixtures.h"
 
 namespace kagefude {
 namespace {

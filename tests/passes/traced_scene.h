@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "passes/coverage.h"
+#include "passes/casters/coverage.h"
 
 namespace kagefude {
 

@@ -12,8 +12,8 @@
 
 #include "base/error.h"
 #include "frame/casters.h"
-#include "passes/coverage.h"
-#include "passes/shadow_volume.h"
+#include "passes/casters/coverage.h"
+#include "passes/casters/shadow_volume.h"
 #include "side_by_side.h"
 
 namespace kagefude {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "frame/draw_text.h"
+#include "picture/draw_text.h"
 
 namespace kagefude {
 namespace {

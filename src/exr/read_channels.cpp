@@ -1,0 +1,272 @@
+#include "exr/read_channels.h"
+
+#include <Imath/ImathBox.h>
+#include <Imath/half.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "exr/fast_read.h"
+#include "image/parallel.h"
+
+namespace kagefude {
+namespace {
+
+// Bands start at multiples of this, so that no chunk of any codec (DWAB: 256 rows) and no common
+// tile is decoded twice.
+constexpr int bandRows = 256;
+
+const Channel& requireChannel(const ImageFile& file, const std::string& name) {
+  if (const Channel* channel = file.findChannel(name)) return *channel;
+  const auto names = file.channelNames();
+  throw InputError(
+      fmt::format("{} has no channel {}{}", file.path.string(), name, didYouMean(name, names)));
+}
+
+Window windowOf(const ImageFile& file, const Channel& channel) {
+  return file.parts[static_cast<size_t>(channel.part)].dataWindow;
+}
+
+Imf::PixelType fileType(PixelType type) {
+  if (type == PixelType::half) return Imf::HALF;
+  return type == PixelType::uint ? Imf::UINT : Imf::FLOAT;
+}
+
+Imf::FrameBuffer frameBufferOf(const ImageFile& file, int part,
+                               std::span<const PlaneTarget> targets) {
+  Imf::FrameBuffer buffer;
+  for (const PlaneTarget& target : targets) {
+    if (target.channel->part != part) continue;
+    const Window& window = windowOf(file, *target.channel);
+    const size_t bytes = target.type == PixelType::half ? 2 : 4;
+    buffer.insert(target.channel->nameInPart,
+                  Imf::Slice::Make(fileType(target.type), target.pixels,
+                                   Imath::V2i(window.x, window.y), window.width, window.height,
+                                   bytes, bytes * static_cast<size_t>(window.width)));
+  }
+  return buffer;
+}
+
+// Rows [first, end), counted from the data window's top.
+void readRows(const ImageFile& file, int part, const Imf::FrameBuffer& buffer, int first, int end) {
+  Imf::MultiPartInputFile input(file.path.c_str(), 0, false);
+  Imf::InputPart inputPart(input, part);
+  const Imath::Box2i window = inputPart.header().dataWindow();
+  const Window& expected = file.parts[static_cast<size_t>(part)].dataWindow;
+  if (window.min.x != expected.x || window.min.y != expected.y ||
+      int64_t{window.max.x} - window.min.x + 1 != expected.width ||
+      int64_t{window.max.y} - window.min.y + 1 != expected.height) {
+    throw InputError(file.path.string() + " changed while it was read");
+  }
+  inputPart.setFrameBuffer(buffer);
+  inputPart.readPixels(window.min.y + first, window.min.y + end - 1);
+}
+
+// Each band has its own stream, so that bands decode side by side on the process's thread pool and
+// OpenEXR's own pool of threads is never started.
+void readPart(const ImageFile& file, int part, const Imf::FrameBuffer& buffer) {
+  const int height = file.parts[static_cast<size_t>(part)].dataWindow.height;
+  const int threads = tbb::this_task_arena::max_concurrency();
+  const int chunks = (height + bandRows - 1) / bandRows;
+  const int grain = (chunks + threads - 1) / threads * bandRows;
+  parallelRows(height, grain,
+               [&](int first, int end) { readRows(file, part, buffer, first, end); });
+}
+
+ExrTarget fastTarget(const ExrPart& part, const Window& window, const PlaneTarget& target) {
+  const int channel = part.channelIndex(target.channel->nameInPart);
+  const int w = window.width, h = window.height;
+  if (target.type == PixelType::half) {
+    return {channel, View<uint16_t>(static_cast<uint16_t*>(target.pixels), w, h)};
+  }
+  if (target.type == PixelType::uint) {
+    return {channel, View<uint32_t>(static_cast<uint32_t*>(target.pixels), w, h)};
+  }
+  return {channel, View<float>(static_cast<float*>(target.pixels), w, h)};
+}
+
+// False when the part is not of the plain kind that the fast path reads.
+bool readFast(const FastExr& fast, const ImageFile& file, int number,
+              std::span<const PlaneTarget> targets) {
+  const auto index = static_cast<size_t>(number);
+  if (index >= fast.parts().size() || !fast.parts()[index].readable) return false;
+  const ExrPart& part = fast.parts()[index];
+  const Window& window = file.parts[index].dataWindow;
+  std::vector<ExrTarget> wanted;
+  for (const PlaneTarget& target : targets) {
+    if (target.channel->part != number) continue;
+    wanted.push_back(fastTarget(part, window, target));
+    if (part.data != window || wanted.back().channel < 0) {
+      throw InputError(file.path.string() + " changed while it was read");
+    }
+  }
+  if (!wanted.empty()) fast.read(number, wanted);
+  return true;
+}
+
+// `from` has the channel's own type, or both have the type single.
+void copyPlane(const PlaneTarget& from, const PlaneTarget& to, size_t pixels) {
+  if (from.type == to.type) {
+    std::memcpy(to.pixels, from.pixels, pixels * (from.type == PixelType::half ? 2 : 4));
+  } else if (from.type == PixelType::half) {
+    const auto* halves = static_cast<const uint16_t*>(from.pixels);
+    std::transform(halves, halves + pixels, static_cast<float*>(to.pixels), imath_half_to_float);
+  } else {
+    const auto* words = static_cast<const uint32_t*>(from.pixels);
+    std::transform(words, words + pixels, static_cast<float*>(to.pixels),
+                   [](uint32_t word) { return static_cast<float>(word); });
+  }
+}
+
+}  // namespace
+
+void readPlanes(const ImageFile& file, std::span<const PlaneTarget> targets) {
+  if (targets.empty()) return;
+  const auto fast = FastExr::open(file.path);
+  try {
+    for (size_t part = 0; part < file.parts.size(); ++part) {
+      if (fast && readFast(*fast, file, static_cast<int>(part), targets)) continue;
+      const auto buffer = frameBufferOf(file, static_cast<int>(part), targets);
+      if (buffer.begin() != buffer.end()) readPart(file, static_cast<int>(part), buffer);
+    }
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& problem) {
+    throw InputError(
+        fmt::format("{} is truncated or damaged: {}", file.path.string(), problem.what()));
+  }
+}
+
+Window ChannelReader::claim(const std::string& channelName, const Channel*& channel) {
+  channel = &requireChannel(file_, channelName);
+  const Window own = windowOf(file_, *channel);
+  if (targets_.empty()) return own;
+  const Channel& other = *targets_.front().channel;
+  const Window first = windowOf(file_, other);
+  if (own == first) return own;
+  throw InputError(
+      fmt::format("{} has channels of different data windows: {} covers {} x {} pixels from ({}, "
+                  "{}), {} covers "
+                  "{} x {} from ({}, {})",
+                  file_.path.string(), other.name, first.width, first.height, first.x, first.y,
+                  channel->name, own.width, own.height, own.x, own.y));
+}
+
+void ChannelReader::floats(const std::string& channelName, Floats& plane) {
+  const Channel* channel = nullptr;
+  const Window window = claim(channelName, channel);
+  plane = Floats(window.width, window.height);
+  targets_.push_back({channel, PixelType::single, plane.row(0)});
+}
+
+void ChannelReader::bits(const std::string& channelName, Labels& plane) {
+  const Channel* channel = nullptr;
+  const Window window = claim(channelName, channel);
+  if (channel->type == PixelType::half) {
+    throw InputError(
+        fmt::format("{} stores the id channel {} as half float, which destroys ids; render or "
+                    "convert it again with 32-bit float",
+                    file_.path.string(), channel->name));
+  }
+  plane = Labels(window.width, window.height);
+  targets_.push_back({channel, channel->type, plane.row(0)});
+}
+
+void ChannelReader::raw(const std::string& channelName, RawPlane& plane) {
+  const Channel* channel = nullptr;
+  const Window window = claim(channelName, channel);
+  plane.name = channel->name;
+  plane.type = channel->type;
+  void* pixels = nullptr;
+  if (channel->type == PixelType::half) {
+    plane.halves = Plane<uint16_t>(window.width, window.height);
+    pixels = plane.halves.row(0);
+  } else {
+    plane.words = Labels(window.width, window.height);
+    pixels = plane.words.row(0);
+  }
+  targets_.push_back({channel, channel->type, pixels});
+}
+
+void ChannelReader::read() {
+  // Native types first: a channel that is asked for twice is decoded once and converted from those.
+  std::stable_partition(targets_.begin(), targets_.end(),
+                        [](const PlaneTarget& t) { return t.type == t.channel->type; });
+  std::vector<PlaneTarget> unique;
+  std::vector<std::pair<PlaneTarget, PlaneTarget>> copies;
+  std::map<const Channel*, PlaneTarget> first;
+  for (const PlaneTarget& target : targets_) {
+    const auto [known, isNew] = first.try_emplace(target.channel, target);
+    if (isNew) {
+      unique.push_back(target);
+    } else {
+      copies.emplace_back(known->second, target);
+    }
+  }
+  readPlanes(file_, unique);
+  for (const auto& [from, to] : copies) {
+    copyPlane(from, to, static_cast<size_t>(windowOf(file_, *from.channel).pixels()));
+  }
+  targets_.clear();
+}
+
+std::vector<Floats> readFloats(const ImageFile& file, std::span<const std::string> channelNames) {
+  ChannelReader reader(file);
+  std::vector<Floats> planes(channelNames.size());
+  for (size_t i = 0; i < planes.size(); ++i) reader.floats(channelNames[i], planes[i]);
+  reader.read();
+  return planes;
+}
+
+std::vector<Labels> readBits(const ImageFile& file, std::span<const std::string> channelNames) {
+  ChannelReader reader(file);
+  std::vector<Labels> planes(channelNames.size());
+  for (size_t i = 0; i < planes.size(); ++i) reader.bits(channelNames[i], planes[i]);
+  reader.read();
+  return planes;
+}
+
+std::vector<RawPlane> readRaw(const ImageFile& file, std::span<const std::string> channelNames) {
+  ChannelReader reader(file);
+  std::vector<RawPlane> planes(channelNames.size());
+  for (size_t i = 0; i < planes.size(); ++i) reader.raw(channelNames[i], planes[i]);
+  reader.read();
+  return planes;
+}
+
+Labels roundIndices(View<const float> values) {
+  Labels labels(values.width, values.height);
+  parallelRows(values.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y) {
+      for (int x = 0; x < values.width; ++x) {
+        const float index = std::floor(values(x, y) + 0.5f);
+        labels(x, y) = index > 0.0f && index < 4294967296.0f ? static_cast<uint32_t>(index) : 0;
+      }
+    }
+  });
+  return labels;
+}
+
+Labels readIndices(const ImageFile& file, const std::string& channelName) {
+  const std::vector<std::string> names = {channelName};
+  if (requireChannel(file, channelName).type == PixelType::uint) {
+    return std::move(readBits(file, names).front());
+  }
+  return roundIndices(readFloats(file, names).front());
+}
+
+}  // namespace kagefude

@@ -1,0 +1,115 @@
+#include "passes/brush/brush_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "image/parallel.h"
+#include "passes/brush/brush_block.h"
+#include "passes/brush/brush_pixel.h"
+#include "passes/brush/brush_rows.h"
+#include "passes/brush/brush_taps.h"
+#include "passes/brush/grain_rows.h"
+#include "passes/brush/seed_rows.h"
+
+namespace kagefude {
+namespace {
+
+// Angle and repeats of the weightiest reference point.
+void writeDiagnostics(const BrushInput& in, int y, bool keepOthers, BrushResult& result) {
+  for (int x = 0; x < in.index.width; ++x) {
+    const size_t index = in.index(x, y);
+    if (index == 0 && keepOthers) continue;
+    const V3f p = in.position(x, y);
+    result.angle(x, y) = result.repeat(x, y) = 0.0f;
+    if (index == 0 || index > in.anchors.size() || !isFinite(p)) continue;
+    const BrushAnchor& anchor = in.anchors[index - 1];
+    const BrushPlace place = brushPlace(anchor, p, in.params.pointBlend);
+    const BrushAnchor::Point& point = anchor.points[place.point + (place.next > 0.5f ? 1 : 0)];
+    result.angle(x, y) = brushAngle(point.frame, point.position, p);
+    result.repeat(x, y) = axisDistance(point.frame, point.position, p) / anchor.mappingDistance;
+  }
+}
+
+void checkAnchors(const BrushInput& in) {
+  for (const BrushAnchor& anchor : in.anchors) {
+    if (anchor.strip < 0 || static_cast<size_t>(anchor.strip) >= in.strips.size())
+      throw InputError(
+          fmt::format("a style asks for strip {} of {}", anchor.strip, in.strips.size()));
+    if (anchor.points.empty() || !(anchor.mappingDistance > 0.0f))
+      throw InputError("a style has no reference point or no mapping distance");
+  }
+}
+
+// One pixel after the other, for what the row painter does not do.
+void paintPlainly(const BrushInput& in, int first, int end, int y, ColourRows& out) {
+  for (int x = first; x < end; ++x) {
+    const size_t index = in.index(x, y);
+    const V3f p = in.position(x, y);
+    Rgba colour{};
+    if (index > 0 && index <= in.anchors.size() && isFinite(p))
+      colour = brushColourAt(in, in.anchors[index - 1], x, y, p);
+    out.store(x, colour);
+  }
+}
+
+/// Bands are painted in columns so wide, that a column's pixels and the parts of the strips that
+/// they read stay in the cache from one row to the next.
+constexpr int columnWidth = 5 * brushBlock;
+
+// The pixels [x, stop) of a row, those of one anchor at a time.
+void paintRow(const BrushInput& in, int x, int stop, int y, bool keepOthers, ColourRows& out) {
+  const uint16_t* index = in.index.row(y);
+  while (x < stop) {
+    int end = x + 1;
+    while (end < stop && index[end] == index[x]) ++end;
+    const bool known = index[x] > 0 && index[x] <= in.anchors.size();
+    if (known && canPaintSeedRow(in, in.anchors[index[x] - 1]))
+      paintSeedRow(in, in.anchors[index[x] - 1], x, end, y, out);
+    else if (known && canPaintObjectRow(in))
+      paintObjectRow(in, in.anchors[index[x] - 1], x, end, y, out);
+    else if (known && canPaintHeldRow(in, in.anchors[index[x] - 1]))
+      paintHeldRow(in, in.anchors[index[x] - 1], x, end, y, out);
+    else if (known || !keepOthers)
+      paintPlainly(in, x, end, y, out);
+    x = end;
+  }
+}
+
+void fit(Floats& plane, View<const float> like) {
+  if (plane.width() != like.width || plane.height() != like.height)
+    plane = Floats(like.width, like.height);
+}
+
+}  // namespace
+
+void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
+                View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
+                std::span<const Strip> strips, const BrushParams& params, BrushResult& result,
+                bool keepOthers) {
+  const BrushInput in{position, normal, tone, anchorIndex, anchors, strips, params};
+  checkAnchors(in);
+  for (Floats* plane : {&result.r, &result.g, &result.b, &result.a}) fit(*plane, tone);
+  if (params.diagnostics)
+    for (Floats* plane : {&result.angle, &result.repeat}) fit(*plane, tone);
+  parallelRows(tone.height, [&](int first, int end) {
+    for (int x = 0; x < tone.width; x += columnWidth)
+      for (int y = first; y < end; ++y) {
+        ColourRows out{result.r.row(y), result.g.row(y), result.b.row(y), result.a.row(y)};
+        paintRow(in, x, std::min(x + columnWidth, tone.width), y, keepOthers, out);
+      }
+    for (int y = first; params.diagnostics && y < end; ++y)
+      writeDiagnostics(in, y, keepOthers, result);
+  });
+}
+
+BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
+                       View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
+                       std::span<const Strip> strips, const BrushParams& params) {
+  BrushResult result;
+  applyBrush(position, normal, tone, anchorIndex, anchors, strips, params, result);
+  return result;
+}
+
+}  // namespace kagefude

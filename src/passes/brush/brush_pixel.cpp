@@ -1,0 +1,134 @@
+#include "passes/brush/brush_pixel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "passes/brush/brush_taps.h"
+#include "passes/brush/grain_lookup.h"
+
+namespace kagefude {
+namespace {
+
+struct Change {
+  V3f position{0, 0, 0};
+  float tone = 0;
+};
+
+// Change to the next pixel along one direction, from the neighbour behind or before that belongs
+// to the same anchor and differs less; position and tone choose for themselves.
+Change changeAlong(const BrushInput& in, int x, int y, int stepX, int stepY, const V3f& p,
+                   float tone) {
+  Change best;
+  float smallest = noChange, smallestTone = noChange;
+  for (int side = 1; side >= -1; side -= 2) {
+    const int nx = x + side * stepX, ny = y + side * stepY;
+    if (!in.index.contains(nx, ny) || in.index(nx, ny) != in.index(x, y)) continue;
+    const V3f neighbour = in.position(nx, ny);
+    if (!isFinite(neighbour)) continue;
+    const V3f d = (neighbour - p) * static_cast<float>(side);
+    if (d.dot(d) < smallest) {
+      smallest = d.dot(d);
+      best.position = d;
+    }
+    const float dTone = (clampedUnit(in.tone(nx, ny)) - tone) * static_cast<float>(side);
+    if (std::fabs(dTone) < smallestTone) {
+      smallestTone = std::fabs(dTone);
+      best.tone = dTone;
+    }
+  }
+  return best;
+}
+
+BrushPixel pixelAt(const BrushInput& in, int x, int y, const V3f& p) {
+  BrushPixel pixel;
+  pixel.position = p;
+  pixel.tone = clampedUnit(in.tone(x, y));
+  pixel.normal = V3f(0.0f);
+  if (!in.normal.empty()) {
+    const V3f n = in.normal(x, y);
+    const float length = std::sqrt(n.dot(n));
+    if (length > 0.0f && isFinite(n)) pixel.normal = n / length;
+  }
+  if (in.params.filter == BrushParams::Filter::bilinear) return pixel;
+  const Change right = changeAlong(in, x, y, 1, 0, p, pixel.tone);
+  const Change below = changeAlong(in, x, y, 0, 1, p, pixel.tone);
+  pixel.dx = right.position;
+  pixel.toneDx = right.tone;
+  pixel.dy = below.position;
+  pixel.toneDy = below.tone;
+  return pixel;
+}
+
+Rgba seedColour(const Strip& strip, const BrushTaps& taps, float tone) {
+  const Rgba first = stripBilinear(strip, taps.u[0], tone);
+  const Rgba second = stripBilinear(strip, taps.u[1], tone);
+  return first * taps.weight[0] + second * taps.weight[1];
+}
+
+Rgba mixedColour(const Strip& strip, const BrushTaps& taps, const BrushPixel& pixel,
+                 const BrushParams& params) {
+  float sum = 0, squares = 0;
+  for (int i = 0; i < taps.count; ++i) sum += taps.weight[i];
+  for (int i = 0; i < taps.count; ++i) squares += taps.weight[i] / sum * (taps.weight[i] / sum);
+  const bool keepContrast = params.crossFade == BrushParams::CrossFade::variance;
+  const float gain =
+      taps.amplitude * (keepContrast ? params.contrast / std::sqrt(squares) : params.contrast);
+  Rgba mixed = stripRowMean(strip, pixel.tone) * (1.0f - gain);
+  for (int i = 0; i < taps.count; ++i) {
+    const StripProbe probe = stripProbe(strip, taps.footprint[i], params.maxProbes);
+    mixed += lookUp(strip, taps.u[i], pixel.tone, probe) * (taps.weight[i] / sum * gain);
+  }
+  mixed = mixed > 0.0f ? mixed : Rgba{};
+  if (strip.opaque) mixed[3] = 1.0f;
+  return mixed;
+}
+
+// Mixes the grain of the taps and gives it the tone's colour.
+Rgba grainedColour(const Strip& strip, const BrushTaps& taps, const BrushPixel& pixel,
+                   const BrushParams& params) {
+  float sum = 0, squares = 0, mixed = 0;
+  for (int i = 0; i < taps.count; ++i) sum += taps.weight[i];
+  for (int i = 0; i < taps.count; ++i) squares += taps.weight[i] / sum * (taps.weight[i] / sum);
+  const float gain =
+      params.crossFade == BrushParams::CrossFade::variance ? 1.0f / std::sqrt(squares) : 1.0f;
+  for (int i = 0; i < taps.count; ++i) {
+    const StripProbe probe = grainProbe(strip.grain, taps.footprint[i], params.maxProbes);
+    mixed +=
+        lookUpGrain(strip.grain, taps.u[i], taps.across[i], probe) * (taps.weight[i] / sum * gain);
+  }
+  const float change = std::max(std::fabs(pixel.toneDx), std::fabs(pixel.toneDy));
+  Rgba colour = grainColour(strip.grain, pixel.tone, mixed, change);
+  if (params.contrast != 1.0f) {
+    const Rgba mean = stripRowMean(strip, pixel.tone);
+    colour = mean + (colour - mean) * params.contrast;
+    colour = colour > 0.0f ? colour : Rgba{};
+  }
+  if (strip.opaque) colour[3] = 1.0f;
+  return colour;
+}
+
+}  // namespace
+
+Rgba brushColourAt(const BrushInput& in, const BrushAnchor& anchor, int x, int y, const V3f& p) {
+  const BrushPixel pixel = pixelAt(in, x, y, p);
+  const Strip& strip = in.strips[static_cast<size_t>(anchor.strip)];
+  BrushTaps taps;
+  if (in.params.mapping == BrushParams::Mapping::seed) {
+    addSeedTaps(anchor, pixel, in.params, taps);
+    return seedColour(strip, taps, pixel.tone);
+  }
+  if (in.params.mapping == BrushParams::Mapping::held &&
+      in.params.grain == BrushParams::Grain::object) {
+    const StripGrain::Level& grain = strip.grain.levels.front();
+    const float aspect = static_cast<float>(grain.width) / static_cast<float>(grain.height);
+    addObjectTaps(anchor, pixel, in.params, aspect, taps);
+    return grainedColour(strip, taps, pixel, in.params);
+  }
+  if (in.params.mapping == BrushParams::Mapping::polar)
+    addPolarTaps(anchor, pixel, in.params, taps);
+  else
+    addHeldTaps(anchor, pixel, in.params, taps);
+  return mixedColour(strip, taps, pixel, in.params);
+}
+
+}  // namespace kagefude

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "passes/brush/brush_anchor.h"
+#include "passes/strip/strip.h"
+
+namespace kagefude {
+
+/// What the brush pass reads, together.
+struct BrushInput {
+  Vec3View position, normal;
+  View<const float> tone;
+  View<const uint16_t> index;
+  std::span<const BrushAnchor> anchors;
+  std::span<const Strip> strips;
+  const BrushParams& params;
+};
+
+/// Squared distance that stands for "no neighbour".
+inline constexpr float noChange = 3.0e38f;
+
+inline bool isFinite(const V3f& v) {
+  const float sum = v.x + v.y + v.z;
+  return sum - sum == 0.0f;
+}
+
+/// Clamped to [0, 1]; NaN gives 0.
+inline float clampedUnit(float value) {
+  return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
+}
+
+/// Brush colour of one pixel at finite position p, in plain steps: what applyBrush means. Rows of
+/// the common case are painted faster, within a few roundings of this, by brush_rows.
+Rgba brushColourAt(const BrushInput& in, const BrushAnchor& anchor, int x, int y, const V3f& p);
+
+}  // namespace kagefude

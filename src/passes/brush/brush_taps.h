@@ -1,0 +1,82 @@
+#pragma once
+
+#include "passes/brush/brush_anchor.h"
+#include "passes/brush/brush_angle.h"
+#include "passes/brush/brush_repeat.h"
+#include "passes/strip/strip.h"
+
+// Where one pixel reads its strip: the brush pass's mathematics without its loops.
+namespace kagefude {
+
+/// Keeps the patterns of the object's three axes from showing the same strokes side by side.
+inline constexpr float axisOffset[3] = {0.0f, 0.381966f, 0.763932f};
+/// Share of the largest axis's squared part below which another axis is not read at all: two
+/// patterns lie over each other within 7 degrees of the diagonal only.
+inline constexpr float axisThreshold = 0.6f;
+/// Added to the squared parts of a unit normal, so that an unknown one counts all planes alike.
+inline constexpr float leastFacing = 1e-12f;
+/// Distance from the light axis, in mapping distances, within which the three axes weigh alike.
+inline constexpr float heldNearAxis = 0.05f;
+
+/// Weight of one of several patterns by its part against the largest's.
+inline float excessShare(float part, float largest) {
+  const float excess = part / largest - axisThreshold;
+  const float positive = excess > 0.0f ? excess : 0.0f;
+  return positive * positive;
+}
+
+/// The same for object grain: wide, or strokes would lie in squares round the axis.
+inline constexpr float objectNearAxis = 1.0f;
+
+/// One pixel of the brush pass: place, normal (zero: unknown), tone, and their change to the next
+/// pixel in x and y.
+struct BrushPixel {
+  V3f position, normal;
+  V3f dx{0, 0, 0}, dy{0, 0, 0};
+  float tone = 0, toneDx = 0, toneDy = 0;
+};
+
+/// The places on the strip that are mixed at one pixel, with their weights.
+struct BrushTaps {
+  static constexpr int most = 12;
+  int count = 0;
+  float u[most];
+  float across[most];  ///< object grain: the place across the strokes, in heights of the grain
+  float weight[most];
+  Footprint footprint[most];
+  float amplitude = 1;  ///< of the strokes against the row's mean
+
+  void add(float place, float share, const Footprint& f) {
+    u[count] = place;
+    weight[count] = share;
+    footprint[count++] = f;
+  }
+};
+
+/// The reference points that hold at p: the first of two neighbours and the share of the second.
+struct BrushPlace {
+  size_t point = 0;
+  float next = 0;
+};
+
+/// Smooth weights along the anchor's long side, over `blend` of each gap between two points.
+BrushPlace brushPlace(const BrushAnchor& anchor, const V3f& p, float blend);
+
+/// Places of the seed's two lookups (002 eq. 3.10) with the weights 1 - t and t (eq. 3.11).
+void addSeedTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                 BrushTaps& taps);
+
+/// The same rings with analytic footprints and a fade round the axis.
+void addPolarTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                  BrushTaps& taps);
+
+/// Places in the planes of the object's own axes: the plane that the surface faces, along whichever
+/// of its two axes the strokes run. `aspect`: width over height of the grain in texels.
+void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                   float aspect, BrushTaps& taps);
+
+/// Places along the object's own axes.
+void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
+                 BrushTaps& taps);
+
+}  // namespace kagefude

@@ -1,0 +1,83 @@
+#include "exr/read_channels.h"
+
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+#include "frame/frame_fixtures.h"
+
+namespace kagefude {
+namespace {
+
+using namespace testing;
+using Names = std::vector<std::string>;
+
+TEST(ReadChannels, OnlyWhatIsAskedForInTheOrderAsked) {
+  const TemporaryFolder folder;
+  writeChannels(folder / "a.exr", {"a", "b", "c"}, PixelType::half);
+  const auto planes = readFloats(openImage(folder / "a.exr"), Names{"c", "a"});
+  ASSERT_EQ(planes.size(), 2u);
+  EXPECT_EQ(planes[0](1, 2), 209.0f);
+  EXPECT_EQ(planes[1](1, 2), 9.0f);
+  EXPECT_TRUE(readFloats(openImage(folder / "a.exr"), {}).empty());
+}
+
+TEST(ReadChannels, UnknownChannelsAreNamedWithTheNearest) {
+  const TemporaryFolder folder;
+  writeChannels(folder / "a.exr", {"Layer.Depth.Z"});
+  expectContains(messageOf<InputError>(
+                     [&] { readFloats(openImage(folder / "a.exr"), Names{"Layer.Dpeth.Z"}); }),
+                 "has no channel Layer.Dpeth.Z (did you mean Layer.Depth.Z?)");
+}
+
+TEST(ReadChannels, HalfIdsAreRefused) {
+  const TemporaryFolder folder;
+  writeChannels(folder / "a.exr", {"id"}, PixelType::half);
+  expectContains(messageOf<InputError>([&] { readBits(openImage(folder / "a.exr"), Names{"id"}); }),
+                 "stores the id channel id as half float");
+}
+
+TEST(ReadChannels, IndicesAreRoundedAndStrangeOnesAreBackground) {
+  Floats values(6, 1);
+  const float given[] = {2.9999f, 3.0f, -4.0f, NAN, 1e20f, 0.4f};
+  for (int x = 0; x < 6; ++x) values(x, 0) = given[x];
+  const Labels labels = roundIndices(values);
+  const uint32_t expected[] = {3, 3, 0, 0, 0, 0};
+  for (int x = 0; x < 6; ++x) EXPECT_EQ(labels(x, 0), expected[x]) << x;
+}
+
+TEST(ReadChannels, OneChannelInSeveralFormsIsReadOnce) {
+  const TemporaryFolder folder;
+  writeChannels(folder / "h.exr", {"v"}, PixelType::half);
+  writeChannels(folder / "f.exr", {"v"}, PixelType::single);
+  for (const char* name : {"h.exr", "f.exr"}) {
+    const ImageFile file = openImage(folder / name);
+    ChannelReader reader(file);
+    Floats first, second;
+    RawPlane raw;
+    reader.floats("v", first);
+    reader.raw("v", raw);
+    reader.floats("v", second);
+    reader.read();
+    EXPECT_EQ(first(3, 2), 11.0f);
+    EXPECT_EQ(second(3, 2), 11.0f);
+    EXPECT_EQ(raw.type, file.channels[0].type);
+  }
+}
+
+TEST(ReadChannels, SameBitsForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  writeChannels(folder / "a.exr", {"a", "b"}, PixelType::single, {-7, 3, 33, 1100});
+  const ImageFile file = openImage(folder / "a.exr");
+  for (const size_t threads : {1, 2, 7}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const auto planes = readFloats(file, Names{"a", "b"});
+    for (int i = 0; i < 33 * 1100; ++i) {
+      ASSERT_EQ(planes[0].row(0)[i], static_cast<float>(i));
+      ASSERT_EQ(planes[1].row(0)[i], static_cast<float>(i) + 100.0f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kagefude

@@ -1,0 +1,420 @@
+#include "passes/casters/coverage.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <limits>
+#include <random>
+
+#include "base/error.h"
+#include "passes/casters/shadow_volume.h"
+#include "passes/traced_scene.h"
+
+namespace kagefude {
+namespace {
+
+LightPlace pointAt(const V3d& position) { return {false, position, V3d(0.0)}; }
+LightPlace sunAlong(const V3d& direction) { return {true, V3d(0.0), direction}; }
+
+/// Looks straight down on the ground with pixels of one unit; pixel (i, j) spans x in [i, i+1],
+/// y from 16 - j down.
+TracedScene flatMap() {
+  TracedScene scene;
+  scene.eye = {8, 8, 30};
+  scene.target = {8, 8, 0};
+  scene.orthographic = true;
+  scene.width = scene.height = 16;
+  scene.opening = 8;
+  scene.meshes = {quadMesh(1, {-50, -50, 0}, {50, -50, 0}, {50, 50, 0}, {-50, 50, 0})};
+  return scene;
+}
+
+/// render() keeps z up, which a camera that looks straight down has no use for.
+void renderDown(TracedScene& scene) {
+  scene.eye.y -= 1e-9;
+  scene.render();
+}
+
+struct Comparison {
+  double worst = 0, sum = 0;
+  int edges = 0, pixels = 0;
+};
+
+Comparison compare(const TracedScene& scene, const LightPlace& light, const Floats& coverage,
+                   double gap = 1e-4) {
+  Comparison result;
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) {
+      if (scene.ids(x, y) == 0) continue;
+      const double truth = scene.tracedCoverage(x, y, light, gap);
+      const double error = std::fabs(truth - coverage(x, y));
+      result.worst = std::max(result.worst, error);
+      result.sum += error;
+      ++result.pixels;
+      result.edges += truth > 0 && truth < 1;
+    }
+  return result;
+}
+
+TEST(Coverage, SquareUnderAnOverheadSunByHand) {
+  TracedScene scene = flatMap();
+  // Covers x 4..8.5 and y 4..8.25: whole pixels, half pixels, quarter pixels, and an eighth.
+  scene.meshes.push_back(quadMesh(0, {4, 4, 1}, {8.5f, 4, 1}, {8.5f, 8.25f, 1}, {4, 8.25f, 1}));
+  renderDown(scene);
+  scene.ids.fill(1);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) scene.position.z(x, y) = 0;
+  // The square itself is unseen by the camera: only the ground is in the picture.
+  const Floats c = shadowCoverage(scene.seen(), scene.casters(), sunAlong({0, 0, -1}), {});
+  EXPECT_EQ(c(5, 16 - 1 - 5), 1.0f);
+  EXPECT_EQ(c(8, 16 - 1 - 5), 0.5f);
+  EXPECT_EQ(c(5, 16 - 1 - 8), 0.25f);
+  EXPECT_EQ(c(8, 16 - 1 - 8), 0.125f);
+  EXPECT_EQ(c(9, 16 - 1 - 5), 0.0f);
+  EXPECT_EQ(c(3, 16 - 1 - 5), 0.0f);
+}
+
+/// The ground alone in the picture, and casters that the camera does not see.
+TracedScene mapWith(const std::vector<CasterMesh>& unseen) {
+  TracedScene scene = flatMap();
+  renderDown(scene);
+  scene.meshes.insert(scene.meshes.end(), unseen.begin(), unseen.end());
+  return scene;
+}
+
+CasterMesh square(float z) {
+  return quadMesh(0, {4, 4, z}, {8.5f, 4, z}, {8.5f, 8.25f, z}, {4, 8.25f, z});
+}
+
+/// What a square over x 4..8.5, y 4..8.25 throws straight down.
+void expectSquaresShadow(const Floats& c) {
+  EXPECT_EQ(c(5, 16 - 1 - 5), 1.0f);
+  EXPECT_EQ(c(8, 16 - 1 - 5), 0.5f);
+  EXPECT_EQ(c(5, 16 - 1 - 8), 0.25f);
+  EXPECT_EQ(c(8, 16 - 1 - 8), 0.125f);
+  EXPECT_EQ(c(9, 16 - 1 - 5), 0.0f);
+  EXPECT_EQ(c(3, 16 - 1 - 5), 0.0f);
+  EXPECT_EQ(c(5, 16 - 1 - 9), 0.0f);
+}
+
+Floats underOverheadSun(const TracedScene& scene) {
+  return shadowCoverage(scene.seen(), scene.casters(), sunAlong({0, 0, -1}), {});
+}
+
+TEST(Coverage, CasterBehindTheCameraWhichItShadesByHand) {
+  const TracedScene scene = mapWith({square(40)});
+  ASSERT_GT(40, scene.eye.z);
+  ASSERT_TRUE(scene.hidden(scene.eye, sunAlong({0, 0, -1}))) << "the camera is inside the volume";
+  expectSquaresShadow(underOverheadSun(scene));
+  expectSquaresShadow(
+      shadowVolume(scene.seen(), scene.meshes, scene.casters(), sunAlong({0, 0, -1}), {}));
+}
+
+TEST(Coverage, BoxInContactWithTheGroundByHand) {
+  TracedScene scene = flatMap();
+  scene.meshes.push_back(boxMesh(2, {4, 4, 0}, {8, 8, 1.5f}));
+  renderDown(scene);
+  // Thrown 1.5 to the right, from the box's very foot.
+  const Floats c =
+      shadowCoverage(scene.seen(), scene.casters(), sunAlong(V3d(1, 0, -1).normalized()), {});
+  EXPECT_EQ(c(8, 16 - 1 - 5), 1.0f);
+  EXPECT_EQ(c(9, 16 - 1 - 5), 0.5f);
+  EXPECT_EQ(c(10, 16 - 1 - 5), 0.0f);
+  EXPECT_EQ(c(7, 16 - 1 - 5), 0.0f) << "the box's lit top";
+  EXPECT_EQ(c(3, 16 - 1 - 5), 0.0f) << "the ground on the light's side";
+}
+
+TEST(Coverage, TwoHundredThousandTrianglesByHand) {
+  constexpr uint32_t side = 320;
+  CasterMesh sheet{"sheet", 0, {}, {}};
+  for (uint32_t j = 0; j <= side; ++j)
+    for (uint32_t i = 0; i <= side; ++i)
+      sheet.vertices.push_back(
+          {4 + 4.5f * float(i) / side, 4 + 4.25f * float(j) / side, 1 + 0.2f * float((i + j) % 2)});
+  for (uint32_t j = 0; j < side; ++j)
+    for (uint32_t i = 0; i < side; ++i) {
+      const uint32_t a = j * (side + 1) + i;
+      sheet.triangles.push_back({a, a + 1, a + side + 2});
+      sheet.triangles.push_back({a, a + side + 2, a + side + 1});
+    }
+  ASSERT_GT(sheet.triangles.size(), 200000u);
+  expectSquaresShadow(underOverheadSun(mapWith({sheet})));
+}
+
+/// A ridge along y at x = 8 with the light low on the right: the left slope turns away from it.
+TEST(Coverage, SlopeTurnedFromTheLightIsDarkUpToTheRidge) {
+  TracedScene scene = flatMap();
+  scene.meshes.push_back(
+      {"ridge",
+       2,
+       {{4, -9, 0}, {4, 25, 0}, {8, -9, 2}, {8, 25, 2}, {12, -9, 0}, {12, 25, 0}},
+       {{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}}});
+  renderDown(scene);
+  const LightPlace light = sunAlong(V3d(-1, 0, -0.2).normalized());
+  // Lifted far enough to look over the ridge.
+  const CoverageParams lifted{.bias = 0.3f};
+  const Floats c = shadowCoverage(scene.seen(), scene.casters(), light, lifted);
+  const Floats v = shadowVolume(scene.seen(), scene.meshes, scene.casters(), light, {.bias = 0.3f});
+  for (int x = 4; x < 12; ++x) {
+    EXPECT_EQ(c(x, 5), x < 8 ? 1.0f : 0.0f) << x;
+    EXPECT_EQ(v(x, 5), x < 8 ? 1.0f : 0.0f) << x;
+  }
+  const Floats without =
+      shadowCoverage(scene.seen(), scene.casters(), light, {.selfShadow = false, .bias = 0.3f});
+  EXPECT_EQ(without(7, 5), 0.0f);
+}
+
+TEST(Coverage, OpenMeshThrowsTheShadowOfItsSheet) {
+  CasterMesh sheet = square(1);
+  const CasterFaults faults = cleanCasterMesh(sheet);
+  EXPECT_EQ(faults.openEdges, 4u);
+  EXPECT_EQ(faults.dropped(), 0u);
+  expectSquaresShadow(underOverheadSun(mapWith({sheet})));
+}
+
+TEST(Coverage, NonManifoldMeshThrowsTheUnionOfItsSheets) {
+  CasterMesh fan = square(1);
+  // A third and a fourth triangle on the square's diagonal.
+  fan.vertices.push_back({8, 5, 1.5f});
+  fan.vertices.push_back({5, 8, 2.0f});
+  fan.triangles.push_back({0, 2, 4});
+  fan.triangles.push_back({2, 0, 5});
+  const CasterFaults faults = cleanCasterMesh(fan);
+  EXPECT_EQ(faults.nonManifoldEdges, 1u);
+  EXPECT_EQ(faults.dropped(), 0u);
+  const TracedScene scene = mapWith({fan});
+  expectSquaresShadow(underOverheadSun(scene));
+  expectSquaresShadow(
+      shadowVolume(scene.seen(), scene.meshes, scene.casters(), sunAlong({0, 0, -1}), {}));
+}
+
+TEST(Coverage, DegenerateTrianglesAreDroppedWithAWarning) {
+  CasterMesh mesh = square(1);
+  mesh.triangles.push_back({0, 0, 1});
+  mesh.vertices.push_back({40, 40, 1});
+  mesh.vertices.push_back({60, 60, 1});
+  mesh.vertices.push_back({80, 80, 1});
+  mesh.triangles.push_back({4, 5, 6});
+  const CasterFaults faults = cleanCasterMesh(mesh);
+  EXPECT_EQ(faults.degenerate, 2u);
+  EXPECT_NE(faultWarning(mesh, faults).find("2 have no area"), std::string::npos);
+  expectSquaresShadow(underOverheadSun(mapWith({mesh})));
+}
+
+TEST(Coverage, NonFiniteTrianglesAreDroppedWithAWarning) {
+  CasterMesh mesh = square(1);
+  mesh.vertices.push_back({std::numeric_limits<float>::quiet_NaN(), 0, 1});
+  mesh.vertices.push_back({0, -std::numeric_limits<float>::infinity(), 1});
+  mesh.triangles.push_back({0, 1, 4});
+  mesh.triangles.push_back({0, 1, 5});
+  const CasterFaults faults = cleanCasterMesh(mesh);
+  EXPECT_EQ(faults.nonFinite, 2u);
+  EXPECT_NE(faultWarning(mesh, faults).find("2 are not finite"), std::string::npos);
+  expectSquaresShadow(underOverheadSun(mapWith({mesh})));
+}
+
+TEST(Coverage, EmptyMeshThrowsNoShadow) {
+  CasterMesh empty{"empty", 0, {}, {}};
+  EXPECT_EQ(faultWarning(empty, cleanCasterMesh(empty)), "");
+  expectSquaresShadow(underOverheadSun(mapWith({empty, square(1)})));
+  TracedScene scene = mapWith({});
+  scene.meshes = {empty};
+  EXPECT_EQ(underOverheadSun(scene)(5, 10), 0.0f);
+}
+
+TEST(Coverage, OverlapsAreCountedOnce) {
+  TracedScene scene = flatMap();
+  for (float z : {1.0f, 2.0f, 3.0f})
+    scene.meshes.push_back(quadMesh(0, {4, 4, z}, {8.5f, 4, z}, {8.5f, 8, z}, {4, 8, z}));
+  renderDown(scene);
+  scene.ids.fill(1);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) scene.position.z(x, y) = 0;
+  const Floats c = shadowCoverage(scene.seen(), scene.casters(), sunAlong({0, 0, -1}), {});
+  EXPECT_EQ(c(8, 16 - 1 - 5), 0.5f);
+}
+
+TEST(Coverage, RandomTrianglesMatchATrace) {
+  for (int seed = 0; seed < 6; ++seed) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    std::uniform_real_distribution<float> place(-2.5f, 2.5f), size(-1.2f, 1.2f);
+    TracedScene scene;
+    scene.orthographic = seed % 3 == 2;
+    if (scene.orthographic) scene.opening = 4;
+    scene.meshes = {groundMesh(1)};
+    for (uint32_t k = 0; k < 3; ++k) {
+      CasterMesh mesh{"soup", 2 + k, {}, {}};
+      for (uint32_t i = 0; i < 12; ++i) {
+        const V3f centre(place(random), place(random), 1.8f + 0.5f * place(random));
+        for (int corner = 0; corner < 3; ++corner)
+          mesh.vertices.push_back(centre + V3f(size(random), size(random), 0.5f * size(random)));
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+      }
+      scene.meshes.push_back(mesh);
+    }
+    scene.render();
+    const LightPlace light =
+        seed % 2 ? sunAlong(V3d(0.4, 0.3, -1).normalized()) : pointAt({1.5, -2, 6});
+    const Floats coverage = shadowCoverage(scene.seen(), scene.casters(), light, {});
+    // The oracle asks for one small gap, the pass for a share of a pixel, so that sub-pixels
+    // where triangles pierce each other may differ.
+    const Comparison c = compare(scene, light, coverage);
+    EXPECT_GT(c.edges, 100) << seed;
+    EXPECT_LT(c.sum / c.edges, 1.0 / 64 / 4) << seed;
+    EXPECT_LE(c.worst, 6.0 / 64) << seed;
+  }
+}
+
+TEST(Coverage, BoxTouchingTheGroundHasNoGapAtTheContact) {
+  TracedScene scene;
+  scene.meshes = {groundMesh(1), boxMesh(2, {-1, -1, 0}, {1, 1, 1.5f})};
+  scene.render();
+  const LightPlace light = pointAt({-4, 2, 5});
+  const Comparison c =
+      compare(scene, light, shadowCoverage(scene.seen(), scene.casters(), light, {}));
+  EXPECT_GT(c.edges, 60);
+  EXPECT_LT(c.sum / c.edges, 0.2 / 64);
+  EXPECT_LE(c.worst, 2.0 / 64);
+}
+
+TEST(Coverage, CastersBehindTheCameraAndCameraInsideTheVolume) {
+  TracedScene scene;
+  // A roof over and behind the camera: the eye is in its shadow.
+  scene.meshes = {groundMesh(1, 20),
+                  quadMesh(2, {-4, -14, 8}, {4, -14, 8}, {4, -2, 8}, {-4, -2, 8})};
+  scene.render();
+  const LightPlace light = pointAt({0.3, -8, 16});
+  ASSERT_TRUE(scene.hidden(scene.eye, light));
+  const Comparison c =
+      compare(scene, light, shadowCoverage(scene.seen(), scene.casters(), light, {}));
+  EXPECT_GT(c.edges, 20);
+  EXPECT_LE(c.worst, 1.0 / 64);
+}
+
+TEST(Coverage, OwnObjectLeftOut) {
+  TracedScene scene;
+  scene.meshes = {groundMesh(1), boxMesh(2, {-1, -1, 0}, {1, 1, 2})};
+  scene.render();
+  const LightPlace light = pointAt({3, 5, 5});
+  const Floats kept = shadowCoverage(scene.seen(), scene.casters(), light, {});
+  const Floats without =
+      shadowCoverage(scene.seen(), scene.casters(), light, {.selfShadow = false});
+  int shadedSelf = 0;
+  for (int y = 1; y + 1 < scene.height; ++y)
+    for (int x = 1; x + 1 < scene.width; ++x) {
+      bool alone = true;
+      for (int k = 0; k < 9; ++k)
+        alone &= scene.ids(x + k % 3 - 1, y + k / 3 - 1) == scene.ids(x, y);
+      if (!alone) continue;
+      if (scene.ids(x, y) == 2) {
+        shadedSelf += kept(x, y) == 1.0f;
+        EXPECT_EQ(without(x, y), 0.0f);
+      } else {
+        EXPECT_EQ(without(x, y), kept(x, y));
+      }
+    }
+  EXPECT_GT(shadedSelf, 20);
+}
+
+TEST(Coverage, MaskAtCentresMatchesATrace) {
+  TracedScene scene;
+  scene.meshes = {groundMesh(1), boxMesh(2, {-1, -1, 0.5f}, {1, 1, 2})};
+  scene.render();
+  const LightPlace light = pointAt({-3, 2, 6});
+  const Bytes mask = hardShadowMask(scene.seen(), scene.casters(), light, {});
+  int hidden = 0;
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) {
+      const V3d lifted =
+          V3d(scene.position.view()(x, y)) +
+          V3d(scene.normal.view()(x, y)) *
+              (scene.normal.view()(x, y).dot(V3f(scene.rays.direction(x, y))) > 0 ? -1e-4 : 1e-4);
+      const bool dark = scene.ids(x, y) != 0 && scene.hidden(lifted, light);
+      EXPECT_EQ(mask(x, y), dark ? 0 : 1) << x << ' ' << y;
+      hidden += dark;
+    }
+  EXPECT_GT(hidden, 100);
+}
+
+TEST(Coverage, ReceiverThatIsNoCasterTakesItsPlaneFromTheNormal) {
+  TracedScene scene;
+  scene.meshes = {groundMesh(1), boxMesh(2, {-1, -1, 1}, {1, 1, 2})};
+  scene.render();
+  const LightPlace light = pointAt({-2, 2, 6});
+  const std::vector<CasterMesh> boxOnly = {scene.meshes[1]};
+  const Floats coverage = shadowCoverage(scene.seen(), CasterSet(boxOnly), light, {});
+  const Comparison c = compare(scene, light, coverage);
+  EXPECT_GT(c.edges, 60);
+  EXPECT_LT(c.sum / c.edges, 0.5 / 64);
+}
+
+TEST(Coverage, BadMeshesGiveWhatTheirGoodTrianglesGive) {
+  TracedScene scene;
+  scene.meshes = {groundMesh(1), boxMesh(2, {-1, -1, 1}, {1, 1, 2})};
+  scene.render();
+  const LightPlace light = pointAt({-2, 2, 6});
+  const Floats good = shadowCoverage(scene.seen(), scene.casters(), light, {});
+  CasterMesh bad = scene.meshes[1];
+  bad.vertices.push_back(V3f(std::numeric_limits<float>::quiet_NaN()));
+  bad.triangles.push_back({0, 1, 8});
+  bad.triangles.push_back({0, 1, 77});
+  bad.triangles.push_back({0, 0, 1});
+  const CasterFaults faults = cleanCasterMesh(bad);
+  EXPECT_EQ(faults.nonFinite, 1u);
+  EXPECT_EQ(faults.badIndices, 1u);
+  EXPECT_EQ(faults.degenerate, 1u);
+  EXPECT_EQ(faults.openEdges, 0u);
+  EXPECT_NE(faultWarning(bad, faults), "");
+  const std::vector<CasterMesh> meshes = {scene.meshes[0], bad, CasterMesh{"empty", 9, {}, {}}};
+  const Floats same = shadowCoverage(scene.seen(), CasterSet(meshes), light, {});
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) ASSERT_EQ(good(x, y), same(x, y));
+}
+
+TEST(Coverage, NoCastersAndBackgroundAndLightOnATriangle) {
+  TracedScene scene;
+  scene.meshes = {groundMesh(1, 2)};
+  scene.render();
+  const Floats none = shadowCoverage(scene.seen(), CasterSet(), pointAt({0, 0, 3}), {});
+  const Floats onGround = shadowCoverage(scene.seen(), scene.casters(), pointAt({0, 0, 0}), {});
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) {
+      ASSERT_EQ(none(x, y), 0.0f);
+      ASSERT_EQ(onGround(x, y), 0.0f);
+    }
+}
+
+TEST(Coverage, SameBitsForAnyNumberOfThreads) {
+  TracedScene scene;
+  scene.meshes = {groundMesh(1), boxMesh(2, {-1, -1, 0}, {1, 1, 2})};
+  scene.render();
+  const CasterSet casters = scene.casters();
+  const LightPlace light = pointAt({-2, 2, 6});
+  const Floats many = shadowCoverage(scene.seen(), casters, light, {});
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const Floats single = shadowCoverage(scene.seen(), casters, light, {});
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) ASSERT_EQ(many(x, y), single(x, y));
+}
+
+TEST(Coverage, PlanesOfDifferentSizeAreRefused) {
+  TracedScene scene;
+  scene.meshes = {groundMesh(1)};
+  scene.render();
+  SeenSurface seen = scene.seen();
+  const Labels small(4, 4, 1u);
+  seen.ids = small;
+  EXPECT_THROW(shadowCoverage(seen, scene.casters(), pointAt({0, 0, 3}), {}), InputError);
+}
+
+TEST(Coverage, VisibilityIsOneMinusStrengthTimesCoverage) {
+  Floats coverage(2, 1);
+  coverage(0, 0) = 0.25f;
+  coverage(1, 0) = 1.0f;
+  coverageToVisibility(coverage, {.strength = 0.5f});
+  EXPECT_EQ(coverage(0, 0), 0.875f);
+  EXPECT_EQ(coverage(1, 0), 0.5f);
+}
+
+}  // namespace
+}  // namespace kagefude

@@ -1,0 +1,153 @@
+#include "passes/edges/outline.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "passes/strip/stroke_noise.h"
+
+namespace kagefude {
+namespace {
+
+struct Scene {
+  Labels ids;
+  Vec3Plane normal, position;
+  Floats depth;
+
+  Scene(int width, int height)
+      : ids(width, height, 1u),
+        normal(width, height),
+        position(width, height),
+        depth(width, height, 5.0f) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        normal.set(x, y, {0, 0, 1});
+        position.set(x, y, {0.01f * static_cast<float>(x), 0.01f * static_cast<float>(y), 0});
+      }
+  }
+  OutlineResult draw(const OutlineParams& params = {}) const {
+    return drawOutlines(ids, normal, position, depth, params);
+  }
+};
+
+float total(const Floats& plane) {
+  double sum = 0;
+  for (int y = 0; y < plane.height(); ++y)
+    for (int x = 0; x < plane.width(); ++x) sum += plane(x, y);
+  return static_cast<float>(sum);
+}
+
+TEST(Outline, StraightEdgeHasTheAskedWidth) {
+  Scene scene(40, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 20; x < 40; ++x) scene.ids(x, y) = 2;
+  for (const float width : {0.5f, 1.0f, 2.0f, 5.0f}) {
+    OutlineParams params;
+    params.width = width;
+    EXPECT_NEAR(total(scene.draw(params).coverage) / 40, width, 0.08f) << width;
+  }
+}
+
+TEST(Outline, LineLiesOnTheBorderBetweenThePixels) {
+  Scene scene(40, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 20; x < 40; ++x) scene.ids(x, y) = 2;
+  const OutlineResult result = scene.draw();
+  EXPECT_NEAR(result.coverage(19, 20), result.coverage(20, 20), 1e-4);
+  EXPECT_EQ(result.coverage(16, 20), 0.0f);
+  EXPECT_EQ(result.coverage(23, 20), 0.0f);
+}
+
+TEST(Outline, SlantingEdgeIsSmooth) {
+  // A step every four pixels: the line's darkness along it may hardly waver.
+  Scene scene(120, 60);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 120; ++x)
+      scene.ids(x, y) = static_cast<float>(y) > 15 + 0.25f * static_cast<float>(x) ? 2 : 1;
+  const OutlineResult result = scene.draw();
+  float least = 99, most = 0;
+  for (int x = 20; x < 100; ++x) {
+    float column = 0;
+    for (int y = 0; y < 60; ++y) column += result.coverage(x, y);
+    least = std::min(least, column);
+    most = std::max(most, column);
+  }
+  // The pieces of the two sides do not coincide quite: slanting lines are a little wider.
+  EXPECT_NEAR(0.5f * (least + most), 1.5f * std::sqrt(1.0625f), 0.2f);
+  EXPECT_LT(most - least, 0.35f);
+}
+
+TEST(Outline, CreaseAndStepInsideAnObject) {
+  Scene crease(40, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 20; x < 40; ++x) crease.normal.set(x, y, {0.9f, 0, 0.436f});
+  EXPECT_GT(total(crease.draw().coverage), 40.0f);
+  OutlineParams noCrease;
+  noCrease.creaseAngle = 180;
+  EXPECT_EQ(total(crease.draw(noCrease).coverage), 0.0f);
+
+  Scene step(40, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 20; x < 40; ++x)
+      step.position.set(x, y, {0.01f * static_cast<float>(x), 0.01f * static_cast<float>(y), 1});
+  EXPECT_GT(total(step.draw().coverage), 40.0f);
+  OutlineParams noStep;
+  noStep.depthStep = 0;
+  EXPECT_EQ(total(step.draw(noStep).coverage), 0.0f);
+}
+
+TEST(Outline, SteepPlaneIsNoStep) {
+  Scene plane(40, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) {
+      plane.normal.set(x, y, {-0.995f, 0, 0.0995f});
+      plane.position.set(x, y, {0.1f * static_cast<float>(x), 0, static_cast<float>(x)});
+    }
+  EXPECT_EQ(total(plane.draw().coverage), 0.0f);
+}
+
+TEST(Outline, NearestSurfaceOwnsTheLine) {
+  Scene scene(40, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) {
+      scene.ids(x, y) = x < 20 ? 7 : 3;
+      scene.depth(x, y) = x < 20 ? 2.0f : 9.0f;
+    }
+  const OutlineResult result = scene.draw();
+  EXPECT_EQ(result.owner(19, 20), 7u);
+  EXPECT_EQ(result.owner(20, 20), 7u);
+  EXPECT_EQ(result.owner(5, 20), 0u);
+}
+
+TEST(Outline, NoEdgesOnAnEmptyOrUniformPicture) {
+  EXPECT_EQ(total(Scene(16, 16).draw().coverage), 0.0f);
+  Scene background(16, 16);
+  background.ids.fill(0);
+  EXPECT_EQ(total(background.draw().coverage), 0.0f);
+}
+
+TEST(Outline, ThreadsDoNotMatter) {
+  Scene scene(120, 90);
+  for (int y = 0; y < 90; ++y)
+    for (int x = 0; x < 120; ++x)
+      scene.ids(x, y) = static_cast<uint32_t>(
+          4 * strokeNoise(2, static_cast<float>(x) * 0.1f, static_cast<float>(y) * 0.1f));
+  OutlineParams params;
+  params.width = 9;
+  OutlineResult one, many;
+  {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    one = scene.draw(params);
+  }
+  {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 7);
+    many = scene.draw(params);
+  }
+  EXPECT_EQ(std::memcmp(one.coverage.row(0), many.coverage.row(0), 120 * 90 * 4), 0);
+  EXPECT_EQ(std::memcmp(one.owner.row(0), many.owner.row(0), 120 * 90 * 4), 0);
+}
+
+}  // namespace
+}  // namespace kagefude
