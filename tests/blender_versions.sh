@@ -53,7 +53,7 @@ within() {
   local place=$1
   shift
   if [ "$place" = here ]; then "$@"; else
-    chroot "$roots/$place" env -C /src HOME=/root LC_ALL=C.UTF-8 "$@"
+    chroot "$roots/$place" env -C /src PWD=/src HOME=/root LC_ALL=C.UTF-8 "$@"
   fi
 }
 
@@ -65,6 +65,8 @@ make_root() {
     touch "$root/made"
   fi
   mkdir -p "$root"/{src,out,proc,dev}
+  # Good enough from a mirror that lags behind.
+  echo 'Acquire::Check-Valid-Until "false";' >"$root/etc/apt/apt.conf.d/80lagging"
   mountpoint -q "$root/proc" || mount -t proc proc "$root/proc" || return 1
   mountpoint -q "$root/dev" || mount --bind /dev "$root/dev" || return 1
   mount --bind "$PWD" "$root/src" && mount -o remount,bind,ro "$root/src" &&
