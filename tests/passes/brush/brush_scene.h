@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstring>
+#include <utility>
+#include <vector>
 
 #include "passes/brush/brush_map.h"
 #include "passes/strip/stroke_noise.h"
@@ -85,6 +88,25 @@ inline BrushAnchor straightAnchor(float mappingDistance) {
   anchor.mappingDistance = mappingDistance;
   anchor.points.push_back({{0, 0, 0}, turningFrame({0, 0, -1}, {}), 0});
   return anchor;
+}
+
+inline BrushParams mappingOf(BrushParams::Mapping mapping) {
+  BrushParams params;
+  params.mapping = mapping;
+  return params;
+}
+
+inline constexpr BrushParams::Mapping everyMapping[] = {
+    BrushParams::Mapping::held, BrushParams::Mapping::polar, BrushParams::Mapping::seed};
+
+inline bool sameBits(const Floats& a, const Floats& b) {
+  return std::memcmp(a.row(0), b.row(0), a.view().pixels() * sizeof(float)) == 0;
+}
+
+inline std::vector<Strip> oneStrip(Strip strip) {
+  std::vector<Strip> strips;
+  strips.push_back(std::move(strip));
+  return strips;
 }
 
 }  // namespace kagefude::test

@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "passes/casters/light_places.h"
 #include "passes/traced_scene.h"
 
 namespace kagefude {
 namespace {
 
-LightPlace pointAt(const V3d& position) { return {false, position, V3d(0, 0, -1)}; }
-LightPlace sunAlong(const V3d& direction) { return {true, V3d(0.0), direction}; }
+using test::pointAt;
+using test::sunAlong;
 
 TEST(PlanarProjection, PointLightDoublesAtHalfHeightByHand) {
   const std::vector<CasterMesh> casters = {

@@ -4,13 +4,14 @@
 
 #include <random>
 
+#include "passes/casters/light_places.h"
 #include "passes/traced_scene.h"
 
 namespace kagefude {
 namespace {
 
-LightPlace pointAt(const V3d& position) { return {false, position, V3d(0, 0, -1)}; }
-LightPlace sunAlong(const V3d& direction) { return {true, V3d(0.0), direction}; }
+using test::pointAt;
+using test::sunAlong;
 
 void expectAgreement(const TracedScene& scene, const LightPlace& light) {
   const CasterSet casters = scene.casters();
