@@ -189,6 +189,14 @@ def action_curves(action):
             for bag in strip.channelbags for curve in bag.fcurves]
 
 
+# Panel ----------------------------------------------------------------------------------------
+
+def relative_path_options():
+    """Options of a path property that takes `//`; Blender shows it in red without them from 4.5."""
+    known = "is_path_supports_blend_relative" in bpy.types.Property.bl_rna.properties
+    return {'PATH_SUPPORTS_BLEND_RELATIVE'} if known else set()
+
+
 # Anything -------------------------------------------------------------------------------------
 
 def set_if_known(holder, **values):

@@ -33,8 +33,11 @@ def show_properties():
     """Make the largest area show the render properties; returns its window and its panels' region."""
     window = bpy.context.window_manager.windows[0]
     area = max(window.screen.areas, key=lambda area: area.width * area.height)
-    area.type = 'PROPERTIES'
-    area.spaces.active.context = 'RENDER'
+    # Setting them again, even to the same, would take the mouse away from what it is pressing.
+    if area.type != 'PROPERTIES':
+        area.type = 'PROPERTIES'
+    if area.spaces.active.context != 'RENDER':
+        area.spaces.active.context = 'RENDER'
     return window, next(region for region in area.regions if region.type == 'WINDOW')
 
 

@@ -59,7 +59,7 @@ is() { [ "$(value "$1")" = "$2" ]; }
 moving() { [ "$(value percent)" -gt 0 ]; }
 picture() { sleep 3; import -window root "$pictures/$1.png"; }
 move() { xdotool mousemove "$1" "$2" sleep 0.5; }
-click() { move "$1" "$2"; xdotool click 1 sleep 0.5; }
+click() { move "$1" "$2"; xdotool mousedown 1 sleep 0.2 mouseup 1 sleep 0.5; }
 # turn X Y STEPS: the next choices of a menu, with the control key and the mouse's wheel.
 turn() {
   move "$1" "$2"
@@ -74,6 +74,9 @@ write() { # write X Y TEXT
 }
 
 until_true "the window never opened" test -f "$work/state.json"
+# Without a window manager nothing gives the window the keyboard, and Blender 5 then heeds no mouse.
+xdotool windowfocus "$(xdotool search --onlyvisible --name . | head -n 1)"
+move 500 500
 left=$(value left) top=$(value top) middle=$(($(value left) + 610))
 row() { echo $((top + 83 + $1)); }   # of a line of the open panel, by its distance from the first
 picture 1_closed

@@ -201,6 +201,15 @@ class Compositor(unittest.TestCase):
         self.assertEqual((new.node.directory, new.node.file_name), ("folder", ".shot.part"))
 
 
+class Panel(unittest.TestCase):
+    def test_relative_paths_are_declared_where_blender_asks(self):
+        for names, wanted in (((), set()), (("is_path_supports_blend_relative",),
+                                            {'PATH_SUPPORTS_BLEND_RELATIVE'})):
+            compat = compat_of(OLD)
+            compat.bpy.types.Property = Fake(bl_rna=Fake(properties=names))
+            self.assertEqual(compat.relative_path_options(), wanted)
+
+
 class Animation(unittest.TestCase):
     def test_curves_are_found_in_flat_and_in_layered_actions(self):
         compat = compat_of(NEW)
