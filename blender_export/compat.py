@@ -213,3 +213,19 @@ def has_denoiser():
     except ImportError:
         return False
     return bool(getattr(_cycles, "with_openimagedenoise", False))
+
+
+# Materials ------------------------------------------------------------------------------------
+
+def displaces(material):
+    """Whether the material's displacement moves the surface; the setting was Cycles' own until 4.1."""
+    method = getattr(material, "displacement_method", None) or material.cycles.displacement_method
+    return method != 'BUMP'
+
+
+def add_number_output(group, name):
+    """One more output of a node group; groups got an interface of their own in 4.0."""
+    if hasattr(group, "interface"):
+        group.interface.new_socket(name, in_out='OUTPUT', socket_type='NodeSocketFloat')
+    else:
+        group.outputs.new('NodeSocketFloat', name)

@@ -5,7 +5,7 @@ import os
 
 import bpy
 
-from . import camera_view, exr_header, export_scenes, frame_image, shot, sidecar
+from . import camera_view, exr_header, export_scenes, frame_image, mask_materials, shot, sidecar
 from . import survey, whole_shot
 from .casters import CasterFiles
 from .errors import ExportError
@@ -45,6 +45,9 @@ class ExportJob:
         self.data.finish()
         self.writer, more = frame_image.shot_writer(scene, view_layer, self.data)
         self.depth = LightDepth(scene, subjects, self.data.material, options.depth_size)
+        notes += mask_materials.keep_what_blocks(
+            [layer for made in bpy.data.scenes if made != scene for layer in made.view_layers],
+            self.data.material, shot.all_geometry())
         self.cameras = camera_view.SharpCameras()
         self.casters = CasterFiles(self.names.folder, self.names.before) if options.casters else None
         for note in notes + more:

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <ostream>
 
@@ -24,12 +25,17 @@ void print(std::ostream& out, const CheckResult& r) {
       "warp error, mean of {} frames: picture {:.5f}, unstyled tone {:.5f}, excess {:.5f}; "
       "strokes alone {:.5f}, tone itself {:.5f}\n",
       r.frames.size() - 1, r.picture, r.plain, r.excess, r.strokes, r.tone);
-  out << fmt::format("largest jump: {:.2f} times the median, at frame {}\n", r.jump, r.jumpFrame);
+  if (std::isfinite(r.jump))
+    out << fmt::format("largest jump: {:.2f} times the median, at frame {}\n", r.jump, r.jumpFrame);
+  else
+    out << fmt::format("largest jump: at frame {}; most frames do not change at all\n",
+                       r.jumpFrame);
   out << fmt::format(
       "strokes: contrast {:.4f} ({:+.0f} % to {:+.0f} % over the sequence), grain {:.1f} pixels "
       "({:+.0f} % to {:+.0f} %)\n",
       r.contrast, 100 * (r.contrastLow - 1), 100 * (r.contrastHigh - 1), r.grain,
       100 * (r.grainLow - 1), 100 * (r.grainHigh - 1));
+  for (const ShotBreak& found : r.breaks) out << "warning: " << found.sentence() << "\n";
 }
 
 void check(const CheckOptions& options, Console& console) {

@@ -118,14 +118,16 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, bool hasCas
   const LightLook* const settings = settingsOf(look, source.name);
   applySettings(look, settings, light);
   if (moveLight(settings, light)) {
-    if (light.method == ShadowMethod::automatic) light.method = casterMethod(light.light.radius);
+    if (light.method == ShadowMethod::automatic)
+      light.method = source.castsShadow ? casterMethod(light.light.radius) : ShadowMethod::none;
     return light;
   }
   if (light.method == ShadowMethod::automatic) {
-    light.method = source.masks      ? arrangementMethod(source.masks->arrangement)
-                   : source.depthMap ? ShadowMethod::pcf
-                   : hasCasters      ? casterMethod(light.light.radius)
-                                     : ShadowMethod::none;
+    light.method = !source.castsShadow ? ShadowMethod::none
+                   : source.masks      ? arrangementMethod(source.masks->arrangement)
+                   : source.depthMap   ? ShadowMethod::pcf
+                   : hasCasters        ? casterMethod(light.light.radius)
+                                       : ShadowMethod::none;
   }
   if (source.depthMap)
     light.depthMap = {source.depthMap->file, source.depthMap->channel,
@@ -269,6 +271,12 @@ void checkMethod(const FrameLight& light, bool hasCasters) {
         light.name, light.maskChannels.size()));
 }
 
+/// The look's own scene, the same in every frame, over what the sidecar says.
+void sizeByScene(const SceneParams& scene, FrameLight& light) {
+  light.subjectCentre = vectorFrom(scene.centre, light.subjectCentre);
+  if (scene.radius > 0.0f) light.subjectRadius = scene.radius;
+}
+
 }  // namespace
 
 bool needsCasters(ShadowMethod method) {
@@ -289,6 +297,7 @@ std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
     const LightLook* const settings = settingsOf(look, light.name);
     if (!matchesAny(light.name, look.shadow.lights) || (settings && !settings->light.on)) continue;
     checkMethod(light, hasCasters);
+    sizeByScene(look.scene, light);
     for (std::string& mask : light.maskChannels) mask = requireMaskChannel(image, mask);
     chosen.push_back(std::move(light));
   }

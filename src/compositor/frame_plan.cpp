@@ -125,6 +125,8 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   plan.frame = frame;
   plan.image = openImage(path);
   plan.sidecar = findSidecar(path);
+  if (plan.sidecar && plan.image.pixelAspect == 1.0f)
+    plan.image.pixelAspect = static_cast<float>(plan.sidecar->pixelAspect);
   const AovNames names = namesFor(look, plan.sidecar);
   plan.position = requireAov(plan.image, names, AovKind::position);
   plan.normal = requireAov(plan.image, names, AovKind::normal);

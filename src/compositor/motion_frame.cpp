@@ -87,6 +87,7 @@ MotionFrame readMotionFrame(const Look& look, const std::filesystem::path& path,
   for (const SidecarObject& object : plan.sidecar->objects)
     result.worldFromObject.emplace(
         plan.idSource == IdSource::index ? object.index : object.cryptoId, object.worldFromObject);
+  result.sidecar = plan.sidecar;
   return result;
 }
 

@@ -14,6 +14,7 @@ struct MotionFrame {
   Floats motionX, motionY;  ///< pixels to the previous frame's place, y upward
   std::map<uint32_t, Transform> worldFromObject;  ///< of the objects that a sidecar describes
   std::optional<Transform> cameraFromWorld, clipFromCamera;
+  std::optional<Sidecar> sidecar;
   Window dataWindow, displayWindow;
 };
 

@@ -112,22 +112,51 @@ VisibleBounds visibleBounds(const SurfaceIndex& index, size_t number, Vec3View p
   return bounds;
 }
 
+/// How far the scene is from the camera: of the whole shot where it is known, so that no frame
+/// depends on what it shows.
+double sceneDistance(const SceneParams& scene, const Sidecar& sidecar, const V3f& sceneCentre) {
+  if (scene.distance > 0.0f) return scene.distance;
+  if (sidecar.shot && sidecar.shot->distance > 0) return sidecar.shot->distance;
+  return -sidecar.camera.cameraFromWorld.point(V3d(sceneCentre)).z;
+}
+
 /// Width of a pixel at a point in the world; 0 where it is not known. Never less than at a tenth of
 /// the scene's distance: a ground's middle may lie beside or behind the camera.
-float pixelWidthAt(const FramePlan& plan, const V3f& point, const V3f& sceneCentre) {
+float pixelWidthAt(const SceneParams& scene, const FramePlan& plan, const V3f& point,
+                   const V3f& sceneCentre) {
   if (!plan.sidecar || plan.image.displayWindow.width <= 0) return 0;
   const Camera& camera = plan.sidecar->camera;
   const double scale = camera.clipFromCamera.m[0][0] * plan.image.displayWindow.width;
   if (!(scale > 0)) return 0;
   if (!camera.perspective) return static_cast<float>(2 / scale);
   const double depth = -camera.cameraFromWorld.point(V3d(point)).z;
-  const double sceneDepth = -camera.cameraFromWorld.point(V3d(sceneCentre)).z;
+  const double sceneDepth = sceneDistance(scene, *plan.sidecar, sceneCentre);
   return static_cast<float>(std::max(std::max(depth, 0.1 * sceneDepth), 0.0) * 2 / scale);
 }
 
-BrushSubject subjectOf(const StyleParams& style, const FramePlan& plan, const FrameLight& light,
-                       const SurfaceIndex& index, size_t number, const FramePlanes& frame,
-                       std::vector<std::string>& warnings) {
+/// Bounds of an object that no sidecar describes: the look's scene, or what is seen of it.
+VisibleBounds boundsWithoutSidecar(const SceneParams& scene, const SurfaceIndex& index,
+                                   size_t number, Vec3View position) {
+  const bool placed = !scene.centre.empty(), sized = scene.radius > 0.0f;
+  VisibleBounds seen;
+  if (!placed || !sized) seen = visibleBounds(index, number, position);
+  const V3f centre = placed ? V3f(scene.centre[0], scene.centre[1], scene.centre[2])
+                            : (seen.low + seen.high) * 0.5f;
+  const V3f half = sized ? V3f(scene.radius) : (seen.high - seen.low) * 0.5f;
+  return {centre - half, centre + half};
+}
+
+/// Whether strokes of an object that no sidecar describes change with what a frame shows of it.
+bool movesWithView(const StyleLook& style, const SceneParams& scene) {
+  const bool placed = !style.style.reference.empty() || !scene.centre.empty();
+  const bool sized = style.passes.brush.mappingDistance > 0.0f || scene.radius > 0.0f;
+  return !placed || !sized;
+}
+
+BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const FramePlan& plan,
+                       const FrameLight& light, const SurfaceIndex& index, size_t number,
+                       const FramePlanes& frame, std::vector<std::string>& warnings) {
+  const StyleParams& style = styled.style;
   BrushSubject subject;
   subject.sceneRadius = light.subjectRadius;
   const Surface& surface = index.surfaces[number - 1];
@@ -139,14 +168,15 @@ BrushSubject subjectOf(const StyleParams& style, const FramePlan& plan, const Fr
     subject.hasBounds = true;
     subject.flat = object->flat;
   } else {
-    const VisibleBounds bounds = visibleBounds(index, number, frame.position);
+    const VisibleBounds bounds = boundsWithoutSidecar(scene, index, number, frame.position);
     subject.boundsMin = bounds.low;
     subject.boundsMax = bounds.high;
     subject.hasBounds = true;
-    if (style.reference.empty())
+    if (movesWithView(styled, scene))
       warnings.push_back(fmt::format(
-          "object {} has no bounds in a sidecar, so its reference point is taken from what is seen "
-          "of it and will move with occlusion; give style.reference",
+          "object {} has no bounds in a sidecar, so its strokes are placed and sized by what a "
+          "frame shows of it and will change with the view; give scene.centre and scene.radius, "
+          "or style.reference and brush.mapping_distance",
           plan.objectName(surface.object).empty() ? fmt::format("{:08x}", surface.object)
                                                   : plan.objectName(surface.object)));
   }
@@ -156,7 +186,7 @@ BrushSubject subjectOf(const StyleParams& style, const FramePlan& plan, const Fr
   const V3f centre = subject.flat && light.subjectRadius > 0
                          ? light.subjectCentre
                          : V3f(subject.worldFromObject.point(middle));
-  subject.worldPerPixel = pixelWidthAt(plan, centre, light.subjectCentre);
+  subject.worldPerPixel = pixelWidthAt(scene, plan, centre, light.subjectCentre);
   if (!style.reference.empty())
     subject.referencePoints = {V3f(style.reference[0], style.reference[1], style.reference[2])};
   return subject;
@@ -173,7 +203,8 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     const StyleLook* found = styleFor(look, plan, index.surfaces[number - 1]);
     const StyleLook& style = found ? *found : fallback;
     const FrameLight& light = lightFor(plan, style.style);
-    BrushSubject subject = subjectOf(style.style, plan, light, index, number, planes, warnings);
+    BrushSubject subject =
+        subjectOf(style, look.scene, plan, light, index, number, planes, warnings);
     subject.strip = strips.indexOf(style.style.strip);
     result.anchors.push_back(makeBrushAnchor(subject, light.light, style.passes.brush));
     result.brushes.push_back(style.passes.brush);

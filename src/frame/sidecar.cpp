@@ -17,6 +17,8 @@ using detail::JsonPlace;
 constexpr int formatVersion = 1;
 constexpr double large = 1e30;
 constexpr int longestSide = 1 << 17;
+constexpr int mostFrames = 100'000'000;
+constexpr int largestScale = 64;
 constexpr size_t mostLights = 1024, mostSamples = 256;
 
 template <class Named>
@@ -82,6 +84,25 @@ void readSubject(const JsonPlace& json, SidecarLight& light) {
   light.subjectRadius = json["radius"].number(0, large);
 }
 
+AreaShape readArea(const JsonPlace& json) {
+  return {json["shape"].choice({"rectangle", "ellipse"}) == 1, json["half_u"].number(0, large),
+          json["half_v"].number(0, large)};
+}
+
+WholeShot readShot(const JsonPlace& json) {
+  WholeShot shot;
+  shot.first = json["first"].integer(-mostFrames, mostFrames);
+  shot.last = json["last"].integer(-mostFrames, mostFrames);
+  shot.subjectCenter = json["subject"]["center"].vector();
+  shot.subjectRadius = json["subject"]["radius"].number(0, large);
+  shot.distance = json["distance"].number(0, large);
+  for (const JsonPlace& light : json["lights"].list(0, mostLights))
+    shot.lights.push_back({light["name"].name(), light["irradiance"].number(0, large),
+                           light["largest_irradiance"].number(0, large)});
+  checkNames(json["lights"], shot.lights);
+  return shot;
+}
+
 // What a light may leave out.
 void readOptions(const JsonPlace& json, SidecarLight& light) {
   if (json.has("color")) {
@@ -89,6 +110,8 @@ void readOptions(const JsonPlace& json, SidecarLight& light) {
     for (size_t i = 0; i < 3; ++i) light.color[i] = color[i].number(0, large);
   }
   if (json.has("energy")) light.energy = json["energy"].number();
+  if (json.has("shadow")) light.castsShadow = json["shadow"].boolean();
+  if (json.has("area")) light.area = readArea(json["area"]);
   if (json.has("subject")) readSubject(json["subject"], light);
   if (json.has("axes")) {
     light.axisU = json["axes"]["u"].unitVector();
@@ -158,7 +181,6 @@ void checkVersion(const JsonPlace& json, const std::filesystem::path& path) {
 }
 
 void readFrame(const JsonPlace& json, Sidecar& sidecar) {
-  constexpr int mostFrames = 100'000'000;
   sidecar.frame = json["frame"].integer(-mostFrames, mostFrames);
   sidecar.fps = json["fps"].number(1e-3, 1e6);
   if (json.has("image")) sidecar.image = json["image"].text();
@@ -166,6 +188,8 @@ void readFrame(const JsonPlace& json, Sidecar& sidecar) {
   sidecar.width = resolution[0].integer(1, longestSide);
   sidecar.height = resolution[1].integer(1, longestSide);
   if (json.has("pixel_aspect")) sidecar.pixelAspect = json["pixel_aspect"].number(1e-3, 1e3);
+  if (json.has("scale")) sidecar.scale = json["scale"].integer(1, largestScale);
+  if (json.has("shot")) sidecar.shot = readShot(json["shot"]);
   if (!json.has("layers")) return;
   const JsonPlace layers = json["layers"];
   if (layers.has("data")) sidecar.dataLayer = layers["data"].text();

@@ -49,6 +49,12 @@ struct LightDepthMap {
 
 enum class LightType { point, spot, sun, area };
 
+/// Outline of an area light: half its sides in world units, along the light's axes u and v.
+struct AreaShape {
+  bool ellipse = false;  ///< else a rectangle
+  double halfU = 0, halfV = 0;
+};
+
 struct SidecarLight {
   std::string name;
   LightType type = LightType::point;
@@ -56,9 +62,11 @@ struct SidecarLight {
   V3d direction{0, 0, -1};  ///< unit, the way its light travels; point: towards the subject
   double radius = 0;        ///< world units; sun: tangent of half its angle
   std::array<double, 3> color{1, 1, 1};
-  double energy = 1;     ///< watts
-  double coneAngle = 0;  ///< spot: full angle, radians
-  double coneBlend = 0;  ///< spot: 0..1
+  double energy = 1;        ///< watts in this frame, sun: per square metre; 0 where it is off
+  bool castsShadow = true;  ///< false: shades only
+  double coneAngle = 0;     ///< spot: full angle, radians
+  double coneBlend = 0;     ///< spot: 0..1
+  std::optional<AreaShape> area;
   V3d subjectCenter{0, 0, 0};
   double subjectRadius = 0;            ///< of the bounding sphere of what it lights; 0: not given
   V3d axisU{0, 0, 0}, axisV{0, 0, 0};  ///< world directions of u and v; 0: not given
@@ -86,6 +94,22 @@ struct SidecarMaterial {
   uint32_t cryptoId = 0;  ///< from the name when not given
 };
 
+/// What a light gives over the whole shot: luminance that arrives at the subject, facing it.
+struct ShotLight {
+  std::string name;
+  double irradiance = 0;         ///< mean; watts per square metre
+  double largestIrradiance = 0;  ///< in any frame that was looked at
+};
+
+/// What holds for the whole shot, the same beside each of its frames.
+struct WholeShot {
+  int first = 0, last = 0;  ///< the scene's own range
+  V3d subjectCenter{0, 0, 0};
+  double subjectRadius = 0;
+  double distance = 0;  ///< of the subject along the camera's view, world units; 0: not before it
+  std::vector<ShotLight> lights;
+};
+
 struct Sidecar {
   std::filesystem::path path;
   int frame = 0;
@@ -93,6 +117,8 @@ struct Sidecar {
   std::string image;
   int width = 0, height = 0;
   double pixelAspect = 1;
+  int scale = 1;  ///< how many times the shot's own resolution the image has
+  std::optional<WholeShot> shot;
   std::string dataLayer, beautyLayer;  ///< "" when not given
   Camera camera;
   std::vector<SidecarLight> lights;

@@ -65,6 +65,7 @@ void readOwnSections(const toml::table& root, Look& look) {
   };
   read(aovNamesTable, &look.frame);
   read(shadowTable, &look.shadow);
+  read(sceneTable, &look.scene);
   read(colourTable, &look.colour);
   read(outputTable, &look.output);
 }
@@ -154,6 +155,7 @@ std::string resolvedText(const Look& look) {
   std::string text = fmt::format("kagefude = {}\n\n", formatVersion);
   spell(text, "[frame]", aovNamesTable, look.frame);
   spell(text, "[shadow]", shadowTable, look.shadow);
+  spell(text, "[scene]", sceneTable, look.scene);
   spell(text, "[colour]", colourTable, look.colour);
   spell(text, "[output]", outputTable, look.output);
   spellPasses(text, "", look.passes);

@@ -30,6 +30,7 @@ struct Look {
   std::filesystem::path folder;  ///< paths in the look are relative to it
   AovNames frame;
   ShadowParams shadow;
+  SceneParams scene;
   ColourParams colour;
   OutputParams output;
   PassParams passes;

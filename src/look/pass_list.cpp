@@ -31,7 +31,7 @@ constexpr std::array passes{
     entry<&PassParams::outline>(outlineTable),
 };
 
-constexpr std::array ownSections{&aovNamesTable, &shadowTable, &lightTable,
+constexpr std::array ownSections{&aovNamesTable, &shadowTable, &sceneTable, &lightTable,
                                  &styleTable,    &colourTable, &outputTable};
 
 constexpr auto joined() {

@@ -57,6 +57,31 @@ inline constexpr Parameter shadowParameters[] = {
 inline constexpr ParameterTable shadowTable{"shadow", "chooses lights and the shadow method",
                                             "004, light sum: k", shadowParameters};
 
+/// [scene]: the size of what the shot shows, for frames whose JSON does not say it.
+struct SceneParams {
+  std::vector<float> centre;
+  float radius = 0.0f;
+  float distance = 0.0f;
+
+  /// Whether it stands for what the JSON says of the scene's place and size.
+  bool sizes() const { return !centre.empty() && radius > 0.0f; }
+};
+inline constexpr Parameter sceneParameters[] = {
+    numbers<&SceneParams::centre>(
+        "centre", 3, -1e12, 1e12, "world units",
+        "middle x, y, z of what the shot shows, the same for all its frames; strokes of objects "
+        "that no JSON describes run round it; empty: as the JSON says"),
+    number<&SceneParams::radius>(
+        "radius", 0, 1e12, "world units",
+        "radius of what the shot shows; strokes of grounds, and of objects that no JSON describes, "
+        "are sized by it; 0: as the JSON says"),
+    number<&SceneParams::distance>(
+        "distance", 0, 1e12, "world units",
+        "distance of the camera from it, for brush.size = \"screen\"; 0: as the JSON says"),
+};
+inline constexpr ParameterTable sceneTable{"scene", "says how large the shot's scene is",
+                                           "kagefude", sceneParameters};
+
 /// [colour]: spaces of the strips, of the result and of the previews.
 struct ColourParams {
   std::string config;

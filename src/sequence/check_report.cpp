@@ -18,6 +18,9 @@ nlohmann::ordered_json frameJson(const CheckedFrame& f) {
 std::string checkJson(const CheckResult& r) {
   nlohmann::ordered_json frames = nlohmann::ordered_json::array();
   for (const CheckedFrame& frame : r.frames) frames.push_back(frameJson(frame));
+  nlohmann::ordered_json breaks = nlohmann::ordered_json::array();
+  for (const ShotBreak& found : r.breaks)
+    breaks.push_back({{"frames", found.frames}, {"says", found.sentence()}});
   const nlohmann::ordered_json json = {
       {"warp_error",
        {{"picture", r.picture},
@@ -29,6 +32,7 @@ std::string checkJson(const CheckResult& r) {
       {"strokes",
        {{"contrast", {{"median", r.contrast}, {"low", r.contrastLow}, {"high", r.contrastHigh}}},
         {"grain", {{"median", r.grain}, {"low", r.grainLow}, {"high", r.grainHigh}}}}},
+      {"breaks", breaks},
       {"frames", frames}};
   return json.dump(2);
 }

@@ -172,7 +172,7 @@ void summarise(CheckResult& result) {
   result.excess = result.picture - result.plain;
   result.median = medianOf(pictures);
   for (const CheckedFrame& frame : result.frames)
-    if (result.median > 0 && frame.picture / result.median > result.jump) {
+    if (frame.picture > 0 && frame.picture / result.median > result.jump) {
       result.jump = frame.picture / result.median;
       result.jumpFrame = frame.frame;
     }
@@ -199,6 +199,8 @@ CheckResult checkSequence(const CheckRequest& request) {
     now.plain = request.unstyled ? readUnstyled(*request.unstyled, frame, now)
                                  : colours.plain(now.motion.ids, now.tone);
     result.frames.push_back(compareFrames(frame, now, before ? &*before : nullptr));
+    if (before && before->motion.sidecar && now.motion.sidecar && !request.look.scene.sizes())
+      noteShotBreaks(*before->motion.sidecar, *now.motion.sidecar, frame, result.breaks);
     before = std::move(now);
   }
   summarise(result);

@@ -7,6 +7,7 @@
 
 #include "base/frame_pattern.h"
 #include "look/look.h"
+#include "sequence/shot_breaks.h"
 
 namespace kagefude {
 
@@ -38,12 +39,14 @@ struct CheckedFrame {
 struct CheckResult {
   std::vector<CheckedFrame> frames;
   double picture = 0, plain = 0, tone = 0, strokes = 0, excess = 0;  ///< means over the sequence
-  double median = 0;                         ///< of the picture's warp errors
-  double jump = 0;                           ///< the largest of them over the median
+  double median = 0;  ///< of the picture's warp errors
+  /// The largest of them over the median; Inf where more than half of the frames do not change.
+  double jump = 0;
   int jumpFrame = 0;                         ///< where it is
   double contrast = 0;                       ///< median over the frames
   double contrastLow = 0, contrastHigh = 0;  ///< least and most, against the median
   double grain = 0, grainLow = 0, grainHigh = 0;
+  std::vector<ShotBreak> breaks;  ///< frames that the exporter described by what they show
 };
 
 /// Measures how a finished sequence holds still: see CheckedFrame. Frames must follow each

@@ -37,6 +37,27 @@ check "the plot is no picture" grep -qE '960 +x +780' <(iinfo "$work/plot.png")
 same=$(check_json "$work/bright/shot.####.exr" --unstyled "$work/bright/shot.####.exr")
 check "against itself there is excess" within "$(value warp_error.excess <<<"$same")" 0 1e-9
 
+# Most frames do not change at all: the one that does is named, though the median is 0.
+mkdir -p "$work/step"
+for frame in 1 2; do oiiotool "$work/out/shot.000$frame.exr" --mulc 0,0,0,1,1 -o "$work/step/shot.000$frame.exr"; done
+oiiotool "$work/step/shot.0002.exr" --addc 0.1,0.1,0.1,0,0 -o "$work/step/shot.0003.exr"
+for frame in 4 5; do
+  cp "$work/in/shot.0003.exr" "$work/in/shot.000$frame.exr"
+  sed "s/shot.0003.exr/shot.000$frame.exr/; s/\"frame\": 3,/\"frame\": $frame,/" "$work/in/shot.0003.json" \
+    >"$work/in/shot.000$frame.json"
+  cp "$work/step/shot.0003.exr" "$work/step/shot.000$frame.exr"
+done
+check "the only frame that changes is not named" \
+  grep -qF 'largest jump: at frame 3;' <("$kagefude" check "$work/step/shot.####.exr" --aovs "$work/in/shot.####.exr")
+
+# A frame whose JSON was written by what it shows is named, unless the look says how large the scene is.
+sed -i 's/"radius": 3.49[0-9]*/"radius": 12.5/' "$work/in/shot.0004.json" "$work/in/shot.0005.json"
+breaks() { "$kagefude" check "$work/step/shot.####.exr" --aovs "$work/in/shot.####.exr" "$@" | grep '^warning' || true; }
+check "the frame in which the subject grows is not named" \
+  grep -q '^warning: frame 4: the radius of what light Key lights goes from 3.49[0-9]* to 12.5' <(breaks)
+check "a scene in the look does not settle it" test -z "$(breaks --set 'scene.centre=[0,0,1]' --set scene.radius=3)"
+rm "$work"/in/shot.000[45].*
+
 # Errors are one line that names what is missing.
 complain() { # complain WORDS CODE ARGUMENT...
   local words=$1 code=$2

@@ -95,6 +95,50 @@ TEST_F(SidecarTest, ReadsEverything) {
   EXPECT_EQ(sidecar.findObject("cup"), nullptr);
 }
 
+json wholeShot() {
+  return {{"first", 1},
+          {"last", 24},
+          {"subject", {{"center", {1, 2, 3}}, {"radius", 1.5}}},
+          {"distance", 7.5},
+          {"lights", {{{"name", "Key"}, {"irradiance", 2.0}, {"largest_irradiance", 3.0}}}}};
+}
+
+TEST_F(SidecarTest, ReadsWhatHoldsForTheWholeShot) {
+  json changed = example();
+  EXPECT_FALSE(read(changed).shot) << "older exports do not say it";
+  EXPECT_EQ(read(changed).scale, 1);
+  changed["shot"] = wholeShot();
+  changed["scale"] = 2;
+  const Sidecar sidecar = read(changed);
+  EXPECT_EQ(sidecar.scale, 2);
+  ASSERT_TRUE(sidecar.shot);
+  EXPECT_EQ(sidecar.shot->first, 1);
+  EXPECT_EQ(sidecar.shot->last, 24);
+  EXPECT_EQ(sidecar.shot->subjectCenter, V3d(1, 2, 3));
+  EXPECT_EQ(sidecar.shot->subjectRadius, 1.5);
+  EXPECT_EQ(sidecar.shot->distance, 7.5);
+  ASSERT_EQ(sidecar.shot->lights.size(), 1u);
+  EXPECT_EQ(sidecar.shot->lights[0].irradiance, 2);
+  EXPECT_EQ(sidecar.shot->lights[0].largestIrradiance, 3);
+  changed["shot"]["distance"] = -1;
+  expectContains(messageOf<InputError>([&] { read(changed); }),
+                 "shot.distance should be a number from 0");
+}
+
+TEST_F(SidecarTest, ReadsLampsWithoutShadowAndAreas) {
+  json changed = example();
+  EXPECT_TRUE(read(changed).lights[0].castsShadow) << "as older exports, which leave it out";
+  changed["lights"][0]["shadow"] = false;
+  changed["lights"][0]["area"] = {{"shape", "ellipse"}, {"half_u", 1.25}, {"half_v", 0.2}};
+  changed["lights"][0].erase("masks");
+  const SidecarLight light = read(changed).lights[0];
+  EXPECT_FALSE(light.castsShadow);
+  ASSERT_TRUE(light.area);
+  EXPECT_TRUE(light.area->ellipse);
+  EXPECT_EQ(light.area->halfU, 1.25);
+  EXPECT_EQ(light.area->halfV, 0.2);
+}
+
 TEST_F(SidecarTest, StandsBesideItsImage) {
   EXPECT_FALSE(findSidecar(folder_ / "shot.0012.exr"));
   read(example());
