@@ -7,6 +7,7 @@ Nothing else is in the render properties, so that the panel stands at their top;
 keyboard of panel_window.sh do the rest.
 """
 
+import itertools
 import json
 import os
 import sys
@@ -18,6 +19,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from paths import exporter  # noqa: E402
 
 STATE = sys.argv[-1]
+ticks = itertools.count()
+opened = False
 
 
 def hide_other_panels():
@@ -41,9 +44,20 @@ def show_properties():
     return window, next(region for region in area.regions if region.type == 'WINDOW')
 
 
+def tell_when_opened(panel):
+    """Blender draws the insides of open panels only."""
+    draw = panel.draw
+
+    def draw_and_tell(self, context):
+        global opened
+        opened = True
+        draw(self, context)
+    panel.draw = draw_and_tell
+
+
 def write_state(window, region):
     settings = window.scene.kagefude
-    state = {"percent": bpy.context.window_manager.kagefude_percent, "masks": settings.masks,
+    state = {"ticks": next(ticks), "opened": opened, "percent": bpy.context.window_manager.kagefude_percent, "masks": settings.masks,
              "frames": settings.frames, "frame_list": settings.frame_list,
              "output": settings.output, "dirty": bpy.data.is_dirty,
              "left": region.x, "top": window.height - region.y - region.height,
@@ -61,6 +75,8 @@ def watch():
     return 0.2
 
 
+bpy.context.preferences.view.show_splash = False
+tell_when_opened(exporter("panel").KAGEFUDE_PT_export)
 exporter("panel").register()
 hide_other_panels()
 bpy.app.timers.register(watch, first_interval=1.0)

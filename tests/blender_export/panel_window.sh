@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Drives the add-on's panel in a real Blender window, on a virtual screen with software OpenGL: opens
 # and fills it, presses Export, sees progress, an error and a finished export, and cancels one.
-#   tests/blender_export/panel_window.sh [PICTURES]    (build/panel)   BLENDER=command  ROOT=folder
+#   tests/blender_export/panel_window.sh [PICTURES]   (build/panel)   BLENDER=command  ROOT=folder
 # By hand, not in CI: software OpenGL takes a minute to start, and the pictures want to be looked at.
 # Needs xvfb, xdotool, imagemagick and libgl1-mesa-dri. With ROOT, such as one that blender_versions.sh
 # made, Blender runs inside that root, which needs libegl1 and libgl1-mesa-dri too.
@@ -57,30 +57,48 @@ until_true() {
 }
 is() { [ "$(value "$1")" = "$2" ]; }
 moving() { [ "$(value percent)" -gt 0 ]; }
-picture() { sleep 3; import -window root "$pictures/$1.png"; }
-move() { xdotool mousemove "$1" "$2" sleep 0.5; }
-click() { move "$1" "$2"; xdotool mousedown 1 sleep 0.2 mouseup 1 sleep 0.5; }
-# turn X Y STEPS: the next choices of a menu, with the control key and the mouse's wheel.
+picture() { seen; sleep 2; import -window root "$pictures/$1.png"; }
+# Waits until Blender has gone round its loop a few times, and so has seen what was done.
+seen() {
+  local wanted=$(($(value ticks) + 4))
+  while [ "$(value ticks)" -lt $wanted ]; do sleep 0.2; done
+}
+move() { xdotool mousemove "$1" "$2"; seen; }
+press() { # press BUTTON
+  xdotool mousedown "$1"; seen
+  xdotool mouseup "$1"; seen
+}
+click() { move "$1" "$2"; press 1; }
+# turn X Y STEPS [BUTTON]: the next choices of a menu, with the control key and the mouse's wheel.
 turn() {
   move "$1" "$2"
-  xdotool keydown ctrl
-  for _ in $(seq "$3"); do xdotool click 5 sleep 0.3; done
-  xdotool keyup ctrl sleep 0.5
+  xdotool keydown ctrl; seen
+  for _ in $(seq "$3"); do xdotool click "${4:-5}"; seen; done
+  xdotool keyup ctrl; seen
 }
 write() { # write X Y TEXT
   move "$1" "$2"
-  xdotool click --repeat 2 --delay 120 1 sleep 1 key ctrl+a type "$3"
-  xdotool key Return sleep 0.5
+  xdotool click --repeat 2 --delay 120 1; seen
+  xdotool key ctrl+a; seen
+  xdotool type "$3"; seen
+  xdotool key Return; seen
 }
 
 until_true "the window never opened" test -f "$work/state.json"
 # Without a window manager nothing gives the window the keyboard, and Blender 5 then heeds no mouse.
 xdotool windowfocus "$(xdotool search --onlyvisible --name . | head -n 1)"
-move 500 500
+# A Blender that was never started before asks for its set-up.
+xdotool key Escape
+seen
 left=$(value left) top=$(value top) middle=$(($(value left) + 610))
 row() { echo $((top + 83 + $1)); }   # of a line of the open panel, by its distance from the first
 picture 1_closed
-click $((left + 50)) $((top + 53))
+# The first presses may only wake the window.
+for _ in 1 2 3 4 5; do
+  click $((left + 50)) $((top + 53))
+  ! is opened True || break
+done
+is opened True || fail "the panel cannot be opened"
 picture 2_opened
 turn $middle "$(row 23)" 3
 until_true "the masks cannot be chosen" is masks disc:5
@@ -114,9 +132,7 @@ until_true "an export that fails does not end" is percent -1
 picture 7_failed
 [ ! -e "$work/kagefude/shot.0002.json" ] || fail "a pair of masks was made of a sun"
 move $middle 600
-xdotool keydown ctrl
-move $middle "$(row 23)"
-xdotool click 4 sleep 0.3 click 4 sleep 0.3 keyup ctrl sleep 0.5
+turn $middle "$(row 23)" 2 4
 until_true "the masks cannot be mended" is masks disc:5
 click $middle "$(row 239)"
 until_true "the export does not end" test -e "$work/kagefude/shot.0002.json"
