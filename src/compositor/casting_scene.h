@@ -17,4 +17,10 @@ struct CastingScene {
   std::vector<std::string> warnings;
 };
 
+struct FramePlan;
+
+/// Reads the casters of a planned frame and builds what the methods need. Without casters only the
+/// rays are filled. Throws InputError.
+CastingScene readCastingScene(const FramePlan& plan);
+
 }  // namespace kagefude

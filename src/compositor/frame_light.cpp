@@ -78,10 +78,7 @@ ShadowMethod arrangementMethod(MaskArrangement arrangement) {
   return ShadowMethod::none;
 }
 
-bool needsMasks(ShadowMethod method) {
-  return method == ShadowMethod::pair || method == ShadowMethod::line ||
-         method == ShadowMethod::disc;
-}
+bool needsMasks(ShadowMethod method) { return entryOf(method).needs.masks.fewest > 0; }
 
 V3f vectorFrom(const std::vector<float>& numbers, const V3f& otherwise) {
   return numbers.empty() ? otherwise : V3f(numbers[0], numbers[1], numbers[2]);
@@ -232,43 +229,38 @@ std::vector<FrameLight> allLights(const Look& look, const Sidecar* sidecar, int 
   return lights;
 }
 
-std::string_view methodName(ShadowMethod method) {
-  return shadowMethodNames[static_cast<size_t>(method)];
+void checkMasks(const FrameLight& light, const ShadowMethodEntry& method) {
+  const size_t count = light.maskChannels.size();
+  const MaskNeed& need = method.needs.masks;
+  if (count < need.fewest)
+    throw InputError(fmt::format(
+        "light {} has {} masks, but shadow.method = \"{}\" needs {} or more; export it with "
+        "--masks {}",
+        light.name, count, method.name, need.fewest, need.exportAs));
+  if (need.most && count > need.most)
+    throw InputError(
+        fmt::format("light {} has {} masks, but shadow.method = \"{}\" needs the {} of --masks {}",
+                    light.name, count, method.name, need.most, need.exportAs));
 }
 
 void checkMethod(const FrameLight& light, bool hasCasters) {
-  if (needsCasters(light.method) && !hasCasters)
+  const ShadowMethodEntry& method = entryOf(light.method);
+  if (method.needs.casters && !hasCasters)
     throw InputError(fmt::format(
         "light {} takes its shadow from the casters (shadow.method = \"{}\"), but the frame brings "
         "none; export it with --casters",
-        light.name, methodName(light.method)));
-  const bool onReceiver =
-      light.method == ShadowMethod::planar || light.method == ShadowMethod::blob;
-  if (onReceiver && light.receiver.empty())
+        light.name, method.name));
+  if (method.needs.receiver && light.receiver.empty())
     throw LookError(
         fmt::format("shadow.method = \"{}\" wants shadow.receiver, the name of the flat "
                     "object that the shadow falls on",
-                    methodName(light.method)));
-  if (needsDepthMap(light.method) && !light.depthMap)
+                    method.name));
+  if (method.needs.depthMap && !light.depthMap)
     throw InputError(fmt::format(
         "light {} has no depth map, which shadow.method = \"{}\" needs; export it again with the "
         "exporter, which writes one for each light",
-        light.name, methodName(light.method)));
-  if (!needsMasks(light.method)) return;
-  const size_t needed = light.method == ShadowMethod::disc ? 5 : 2;
-  if (light.maskChannels.size() < needed)
-    throw InputError(
-        fmt::format("light {} has {} masks, but shadow.method = \"{}\" needs {} or more; export it "
-                    "with --masks "
-                    "{}",
-                    light.name, light.maskChannels.size(), methodName(light.method), needed,
-                    light.method == ShadowMethod::pair   ? "pair"
-                    : light.method == ShadowMethod::line ? "line:5"
-                                                         : "disc:9"));
-  if (light.method == ShadowMethod::pair && light.maskChannels.size() != 2)
-    throw InputError(fmt::format(
-        "light {} has {} masks, but shadow.method = \"pair\" needs the 2 of --masks pair",
-        light.name, light.maskChannels.size()));
+        light.name, method.name));
+  checkMasks(light, method);
 }
 
 /// The look's own scene, the same in every frame, over what the sidecar says.
@@ -278,15 +270,6 @@ void sizeByScene(const SceneParams& scene, FrameLight& light) {
 }
 
 }  // namespace
-
-bool needsCasters(ShadowMethod method) {
-  return method == ShadowMethod::coverage || method == ShadowMethod::volume ||
-         method == ShadowMethod::places || method == ShadowMethod::planar;
-}
-
-bool needsDepthMap(ShadowMethod method) {
-  return method == ShadowMethod::pcf || method == ShadowMethod::pcss;
-}
 
 std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
                                      const ImageFile& image, int frame, bool hasCasters) {

@@ -41,11 +41,6 @@ struct FrameLight {
   std::filesystem::path blob;  ///< picture of the blob; empty: a soft round one
 };
 
-/// Whether a method reads the light's depth map.
-bool needsDepthMap(ShadowMethod method);
-/// Whether a method needs the shape of what casts the shadow.
-bool needsCasters(ShadowMethod method);
-
 /// The lights that take part in a frame, in the sidecar's order, then those that only the look
 /// describes. `hasCasters` says whether the frame brings casters. Throws InputError when a light
 /// lacks what its method needs, naming what to export; LookError when [shadow] lights or a

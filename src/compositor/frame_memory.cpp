@@ -20,7 +20,6 @@ constexpr size_t asHalf = 8;
 constexpr size_t ofIds = 4;
 constexpr size_t ofReadingIds = 16;  // two ranks of a Cryptomatte
 constexpr size_t ofEdgeRanks = 32;   // four ranks of a Cryptomatte
-constexpr size_t ofMaskSearch = 4;   // a mask's signed distance, and what its search needs
 
 size_t layerBytes(const Look& look, const FramePlan& plan) {
   std::vector<std::string> names = {"brush.tone", "brush.angle", "brush.repeat", "outline",
@@ -41,6 +40,14 @@ size_t inputBytes(const FramePlan& plan) {
   return bytes;
 }
 
+/// What a light's method needs at work; lights follow each other.
+size_t methodBytes(const FrameLight& light) {
+  const ShadowMethodEntry& method = entryOf(light.method);
+  const size_t masks =
+      method.cutsMasks ? static_cast<size_t>(light.castPlaces) : light.maskChannels.size();
+  return method.bytes.perPixel + method.bytes.perMask * masks;
+}
+
 /// Chunks of EXR rows that threads unpack or pack at the same time: raw, split, predicted and
 /// packed, and those that wait for their turn to be written.
 size_t chunkBytes(const FramePlan& plan, size_t bytesPerPixel) {
@@ -52,7 +59,7 @@ size_t chunkBytes(const FramePlan& plan, size_t bytesPerPixel) {
 size_t depthMapBytes(const FramePlan& plan) {
   size_t bytes = 0;
   for (const FrameLight& light : plan.lights) {
-    if (!needsDepthMap(light.method)) continue;
+    if (!entryOf(light.method).needs.depthMap) continue;
     const ImageFile map = openImage(light.depthMap->file);
     bytes += 4 * static_cast<size_t>(map.width) * static_cast<size_t>(map.height);
   }
@@ -62,12 +69,10 @@ size_t depthMapBytes(const FramePlan& plan) {
 }  // namespace
 
 size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
-  size_t masks = 0, mostMasks = 0;
+  size_t masks = 0, methods = 0;
   for (const FrameLight& light : plan.lights) {
-    const size_t own = light.method == ShadowMethod::places ? static_cast<size_t>(light.castPlaces)
-                                                            : light.maskChannels.size();
     masks += light.maskChannels.size();
-    mostMasks = std::max(mostMasks, own);
+    methods = std::max(methods, methodBytes(light));
   }
   size_t floats = 4 * (3 + 3);
   if (plan.albedo) floats += 4 * 3;
@@ -80,8 +85,8 @@ size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
   const size_t passed = look.output.passthrough ? input : 0;
 
   const size_t reading = floats + 4 * masks + ids + ofReadingIds + edges;
-  const size_t composing = floats + masks + ids + ofPasses + ofResult + layers + edges + tones +
-                           ofMaskSearch * mostMasks;
+  const size_t composing =
+      floats + masks + ids + ofPasses + ofResult + layers + edges + tones + methods;
   const size_t writing = ofResult + asHalf + layers + passed + (preview ? ofPreview : 0);
   const size_t pixels =
       static_cast<size_t>(plan.image.width) * static_cast<size_t>(plan.image.height);

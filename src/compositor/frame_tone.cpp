@@ -61,8 +61,10 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
     if (matchesAny(name, look.output.layers))
       result.layers.push_back({name, std::move(visibility)});
     const std::string confidence = fmt::format("confidence.{}", light.name);
-    if (matchesAny(confidence, look.output.layers))
+    if (matchesAny(confidence, look.output.layers)) {
+      if (shadow.confidence.empty()) shadow.confidence = Floats(planes.width, planes.height, 1.0f);
       result.layers.push_back({confidence, std::move(shadow.confidence)});
+    }
   }
   if (tones.size() == 1) return std::move(tones.front());
   Floats sum(planes.width, planes.height);

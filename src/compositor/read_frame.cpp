@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "compositor/caster_visibility.h"
+#include "compositor/casting_scene.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
 #include "frame/sanitise.h"
@@ -96,14 +96,15 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
       own.masks.push_back(toMask(mask));
       mask = Floats();
     }
-    if (needsDepthMap(plan.lights[i].method)) own.depthMap = readDepthMap(*plan.lights[i].depthMap);
+    if (entryOf(plan.lights[i].method).needs.depthMap)
+      own.depthMap = readDepthMap(*plan.lights[i].depthMap);
   }
   planes.objectId = idsFrom(objects, plan.idSource);
   if (plan.materialId) planes.materialId = idsFrom(materials, plan.materialSource);
   planes.coverageIds = std::move(coverage.ids);
   planes.coverageShares = std::move(coverage.coverage);
   const auto wantsScene = [](const FrameLight& light) {
-    return needsCasters(light.method) || light.method == ShadowMethod::blob;
+    return entryOf(light.method).needs.camera;
   };
   if (std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene))
     planes.casting = std::make_shared<const CastingScene>(readCastingScene(plan));

@@ -6,27 +6,10 @@
 
 #include "base/parameter.h"
 #include "exr/write_image.h"
+#include "look/shadow_methods.h"
 
 // The look's sections that are not a pass's own parameters. Each is declared once, here.
 namespace kagefude {
-
-enum class ShadowMethod {
-  automatic,
-  none,
-  pair,
-  line,
-  disc,
-  pcf,
-  pcss,
-  coverage,
-  volume,
-  places,
-  planar,
-  blob
-};
-inline constexpr std::string_view shadowMethodNames[] = {"auto",   "none",   "pair",   "line",
-                                                         "disc",   "pcf",    "pcss",   "coverage",
-                                                         "volume", "places", "planar", "blob"};
 
 /// [shadow]: how each light's visibility is found.
 struct ShadowParams {
@@ -38,12 +21,7 @@ struct ShadowParams {
   std::string blob;
 };
 inline constexpr Parameter shadowParameters[] = {
-    choice<&ShadowParams::method>(
-        "method", shadowMethodNames,
-        "where the visibility comes from: masks (pair, line, disc), the depth map (pcf, pcss), the "
-        "casters (coverage, volume: hard; places: soft; planar: on one receiver), or painted "
-        "blobs; "
-        "auto takes the masks' own arrangement, then the depth map, then the casters, then none"),
+    choice<&ShadowParams::method>("method", shadowMethodNames, shadowMethodHelp),
     plain<&ShadowParams::lights>("lights", "names or globs of the lights that take part"),
     number<&ShadowParams::strength>("strength", 0, 1, "",
                                     "share of the light that a full shadow takes away"),
