@@ -9,11 +9,16 @@ from .frame_ranges import parse_frames
 
 DISC_MASKS = (5, 9, 17, 33, 65)
 MOST_LINE_MASKS = 64
+MOST_SAMPLES = 65536
+MASK_BACKENDS = ("auto", "layers", "groups", "occlusion", "raycast")
 
 
 @dataclass
 class Arrangement:
-    """How the shadow masks lie on a light: `pair`, `line` or `disc`, and how many there are."""
+    """How the shadow masks lie on a light: `pair`, `line` or `disc`, and how many there are.
+
+    Or `trace`: no masks but the traced visibility, and how many samples a pixel it takes.
+    """
     kind: str = "disc"
     count: int = 9
 
@@ -24,6 +29,7 @@ class Options:
     frames: list = None          # None: the frame the file was saved at
     lights: list = field(default_factory=list)  # empty: every light that renders
     masks: Arrangement = field(default_factory=Arrangement)
+    masks_by: str = "auto"       # one of MASK_BACKENDS
     offset: float = None         # None: from the light's size; world units, for a sun a tangent
     truth_samples: int = 0       # 0: no truth layer
     scale: int = 1
@@ -37,7 +43,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def parse_masks(text):
-    """`pair`, `line:K` with K from 2 to 64, `disc:K` with K of DISC_MASKS."""
+    """`pair`, `line:K` with K from 2 to 64, `disc:K` with K of DISC_MASKS, or `trace:N`."""
     kind, _, number = text.partition(":")
     if text == "pair":
         return Arrangement("pair", 2)
@@ -46,10 +52,20 @@ def parse_masks(text):
     if kind == "line" and number.isascii() and number.isdigit() \
             and 2 <= int(number) <= MOST_LINE_MASKS:
         return Arrangement("line", int(number))
+    if kind == "trace" and number.isascii() and number.isdigit() \
+            and 1 <= int(number) <= MOST_SAMPLES:
+        return Arrangement("trace", int(number))
     discs = [f"disc:{count}" for count in DISC_MASKS]
     raise UsageError(f"'{text}' is not an arrangement of masks (pair, line:2 to "
-                     f"line:{MOST_LINE_MASKS}, {', '.join(discs)})"
-                     f"{nearest(text, ['pair', 'line:5', *discs])}")
+                     f"line:{MOST_LINE_MASKS}, {', '.join(discs)}, trace:1 to trace:{MOST_SAMPLES})"
+                     f"{nearest(text, ['pair', 'line:5', *discs, 'trace:64'])}")
+
+
+def parse_backend(text):
+    if text not in MASK_BACKENDS:
+        raise UsageError(f"'{text}' is not a way to render masks ({', '.join(MASK_BACKENDS)})"
+                         f"{nearest(text, list(MASK_BACKENDS))}")
+    return text
 
 
 def parse_offset(text):
@@ -88,12 +104,17 @@ def build_parser():
                              "renders and casts shadows)")
     parser.add_argument("--masks", type=parse_masks, default=Arrangement(), metavar="HOW",
                         help="pair, line:K, or disc:K with K 5, 9, 17, 33 or 65 (default: disc:9); "
-                             "thin shadows of wide lights need the larger discs")
+                             "thin shadows of wide lights need the larger discs; trace:N takes "
+                             "no masks but the light's own soft shadow, traced with N samples")
+    parser.add_argument("--masks-by", type=parse_backend, default="auto", metavar="HOW",
+                        help="auto, layers (a render a mask), groups (light groups), or by rays, "
+                             "all masks in one sample: raycast (Blender 5.1 on) or occlusion; what "
+                             "rays cannot do right is done by layers (default: auto)")
     parser.add_argument("--offset", type=parse_offset, default=None, metavar="L",
                         help="distance of the outermost masks from the light's centre in world "
                              "units, for a sun the tangent of the angle, or auto: from the "
                              "light's own size (default: auto)")
-    parser.add_argument("--truth", type=_whole_number("truth", 1, 65536), default=0,
+    parser.add_argument("--truth", type=_whole_number("truth", 1, MOST_SAMPLES), default=0,
                         metavar="SAMPLES", dest="truth_samples",
                         help="also trace each light at its real size with so many samples")
     parser.add_argument("--scale", type=_whole_number("scale", 1, 4), default=1, metavar="N",

@@ -86,6 +86,12 @@ def copy_light_linking(source, lamp):
         lamp.light_linking.blocker_collection = linking.blocker_collection
 
 
+def has_light_linking(light):
+    """Whether the light object picks the objects that it lights or that hide it (4.0 on)."""
+    linking = getattr(light, "light_linking", None)
+    return bool(linking and (linking.receiver_collection or linking.blocker_collection))
+
+
 # Passes ---------------------------------------------------------------------------------------
 
 def pass_name(socket_name):
@@ -195,6 +201,33 @@ def relative_path_options():
     """Options of a path property that takes `//`; Blender shows it in red without them from 4.5."""
     known = "is_path_supports_blend_relative" in bpy.types.Property.bl_rna.properties
     return {'PATH_SUPPORTS_BLEND_RELATIVE'} if known else set()
+
+
+# Sampling and shaders -------------------------------------------------------------------------
+
+def use_tabulated_sampler(settings):
+    """Take random numbers from a table, as `scrambling_distance` needs; its name changed in 3.5."""
+    for name in ('TABULATED_SOBOL', 'PROGRESSIVE_MULTI_JITTER'):
+        try:
+            settings.sampling_pattern = name
+            return
+        except TypeError:
+            continue
+
+
+def hide_from_raycast(item, hidden):
+    """Let the Raycast node pass through the object, where this Blender can."""
+    set_if_known(item, visible_raycast=not hidden)
+
+
+def has_raycast_node():
+    """The shader node Raycast came with 5.1."""
+    return hasattr(bpy.types, "ShaderNodeRaycast")
+
+
+def can_hide_from_raycast():
+    """From 5.2 an object may be left out of the Raycast node's rays; before, all were hit."""
+    return hasattr(bpy.types.Object, "visible_raycast")
 
 
 # Anything -------------------------------------------------------------------------------------

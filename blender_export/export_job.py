@@ -11,6 +11,7 @@ from .casters import CasterFiles
 from .errors import ExportError
 from .light_depth import LightDepth, plan_view
 from .light_rig import LightRig
+from .mask_backends import MaskBackends
 from .output_names import light_keys, parse_output
 from .unique_names import UniqueNames
 
@@ -41,16 +42,17 @@ class ExportJob:
         shot.give_distinct_indices(self.materials)
         notes = export_scenes.prepare_beauty(scene, view_layer, options)
         self.data = export_scenes.DataScene(scene, subjects)
-        self.rigs = self._rigs(lights)
+        backends = MaskBackends(options.masks_by, self.data, shot.all_geometry())
+        self.rigs = self._rigs(lights, backends)
         self.data.finish()
         self.writer, more = frame_image.shot_writer(scene, view_layer, self.data)
-        self.depth = LightDepth(scene, subjects, self.data.material, options.depth_size)
+        self.depth = LightDepth(self.data, subjects, options.depth_size)
         notes += mask_materials.keep_what_blocks(
             [layer for made in bpy.data.scenes if made != scene for layer in made.view_layers],
             self.data.material, shot.all_geometry())
-        self.cameras = camera_view.SharpCameras()
+        self.cameras = camera_view.SharpCameras(self.data.uses_rays)
         self.casters = CasterFiles(self.names.folder, self.names.before) if options.casters else None
-        for note in notes + more:
+        for note in notes + backends.notes + more:
             self.say(f"note: {note}")
 
     def _survey(self, lights):
@@ -72,10 +74,11 @@ class ExportJob:
         self.casting = {light for light in lights if survey.ever_casts(samples, names[light])}
         return lights
 
-    def _rigs(self, lights):
+    def _rigs(self, lights, backends):
         names = [self.light_names.of(light) for light in lights]
         keys = light_keys(names)
-        return [LightRig(light, name, keys[name], light in self.casting, self.options, self.data)
+        return [LightRig(light, name, keys[name], light in self.casting, self.options, self.data,
+                         backends)
                 for light, name in zip(lights, names)]
 
     def run(self):
@@ -98,7 +101,8 @@ class ExportJob:
                   for rig in self.rigs]
         mapped = [(rig, entry, self._light_view(frame, state, depsgraph, view, things))
                   for rig, (state, entry) in zip(self.rigs, placed) if rig.masked]
-        self.data.scene.camera = self.cameras.copy_of(self.scene.camera, self.data.scene)
+        for scene in self.data.scenes:
+            scene.camera = self.cameras.copy_of(self.scene.camera, self.data.scene)
         image = os.path.join(self.names.folder, self.names.image(frame))
         parts = [(frame_image.render(self.writer, frame, image), image)]
         yield

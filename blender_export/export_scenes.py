@@ -4,15 +4,16 @@
 Data passes and masks need one sample at the pixel's centre, the beauty needs the artist's own
 samples and filter, and a pixel filter belongs to a scene. So there is a data scene beside the
 artist's, with one view layer for the data, one per mask and one per traced truth; and a writing
-scene whose compositor takes the layers of both and puts them into one multilayer EXR. A light's
-depth map is one more scene, seen from the light.
+scene whose compositor takes the layers of both and puts them into one multilayer EXR. The lights'
+depth maps are a layer of the data scene too, which keeps its geometry from render to render.
 """
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bpy
 
-from . import compat
+from . import compat, sight_nodes
 from .errors import ExportError
 
 DATA_PASSES = ("Normal", "Position", "Depth", "IndexOB", "IndexMA", "UV", "Vector", "DiffCol")
@@ -70,7 +71,7 @@ def exact_scene(artist_scene, name):
     for item in list(scene.collection.objects):
         scene.collection.objects.unlink(item)
     compat.set_if_known(scene.render, engine='CYCLES', use_motion_blur=False, use_freestyle=False,
-                        film_transparent=False, use_single_layer=False, use_persistent_data=False)
+                        film_transparent=False, use_single_layer=False, use_persistent_data=True)
     compat.set_if_known(
         scene.cycles, samples=1, use_adaptive_sampling=False, use_denoising=False, time_limit=0.0,
         use_layer_samples='USE', max_bounces=0, seed=0, use_animated_seed=False,
@@ -126,51 +127,153 @@ def enable_data_passes(view_layer):
 @dataclass
 class Reading:
     """How a layer's one channel is made of a pass of a view layer."""
+    scene: object
+    view_layer: str
     pass_name: str
     threshold: float = None   # 1 above it, 0 elsewhere
     share_of: str = None      # name of a view layer by whose pass it is divided
 
 
 class DataScene:
-    """Data layer, mask layers and truth layers, with their lamps."""
+    """Data layer, mask layers and truth layers, with their lamps.
+
+    What takes many samples lies in a scene of its own, made when it is needed: the data scene may
+    use the same random numbers in every pixel, which would show in them.
+    """
 
     def __init__(self, artist_scene, subjects):
         self.scene = exact_scene(artist_scene, "data")
         self.subjects = link_collection(self.scene, "subjects", subjects)
         self.material = plain_material()
         self.layers = {}      # layer name -> Reading
+        self._artist_scene, self._sampled = artist_scene, None
         data = replace_view_layers(self.scene, "data")
         data.samples = 1
         enable_data_passes(data)
-        self._lamps = {data.name: None}
+        self._lamps = {data.name: []}
+        self._sight, self._sight_names = None, []
+        self._group_layer = None
+
+    @property
+    def scenes(self):
+        return [scene for scene in (self.scene, self._sampled) if scene]
+
+    @property
+    def uses_rays(self):
+        """Whether some masks are taken by rays of a shader node."""
+        return self._sight is not None
 
     def add_shadow_layer(self, name, lamp):
         """A view layer lit by `lamp` alone, a point, that holds whether each pixel sees it."""
-        pass_name, threshold = compat.enable_mask_pass(self._add_layer(name, lamp, 1))
-        self.layers[name] = Reading(pass_name, threshold)
+        layer = self._add_layer(self.scene, name, [lamp], 1)
+        pass_name, threshold = compat.enable_mask_pass(layer)
+        self.layers[name] = Reading(self.scene, name, pass_name, threshold)
 
     def add_truth_layer(self, name, lamp, bare_lamp, samples):
         """One that holds how much of `lamp` each pixel sees; `bare_lamp` is the same without shadows."""
-        pass_name, threshold = compat.enable_mask_pass(self._add_layer(name, lamp, samples))
+        scene = self._sampled_scene()
+        layer = self._add_layer(scene, name, [lamp], samples)
+        pass_name, threshold = compat.enable_mask_pass(layer)
         bare = None
         if threshold is not None:
             bare = "bare." + name
-            compat.enable_mask_pass(self._add_layer(bare, bare_lamp, samples))
-        self.layers[name] = Reading(pass_name, None, bare)
+            compat.enable_mask_pass(self._add_layer(scene, bare, [bare_lamp], samples))
+        self.layers[name] = Reading(scene, name, pass_name, None, bare)
 
-    def _add_layer(self, name, lamp, samples):
-        view_layer = self.scene.view_layers.new(name)
+    def add_group_mask(self, name, lamp):
+        """A light group of the one layer that all of them share; sampled until each lamp was picked."""
+        if self._group_layer is None:
+            self._group_layer = self._add_layer(self._sampled_scene(), "groups", [], 1)
+        group = f"g{len(self._group_layer.lightgroups)}"
+        self._group_layer.lightgroups.add(name=group)
+        lamp.lightgroup = group
+        self._lamps["groups"].append(lamp)
+        # A sample picks one lamp, and samples in powers of two are spread evenly over the lamps.
+        self._group_layer.samples = 1 << (2 * len(self._lamps["groups"]) - 1).bit_length()
+        self.layers[name] = Reading(self._sampled, "groups", f"Combined_{group}", 0.0)
+
+    def add_sight_layer(self, ask):
+        """The layer whose material writes masks into AOVs; returns the material (see sight_nodes)."""
+        self._sight = sight_nodes.SightMaterial(plain_material(), ask)
+        layer = self._add_layer(self.scene, "sight", [], 1)
+        layer.material_override = self._sight.material
+        return self._sight
+
+    def add_sight_mask(self, name):
+        """One more mask of that layer; returns the name of its AOV."""
+        aov = f"k{len(self._sight_names)}"
+        self._sight_names.append(aov)
+        self.layers[name] = Reading(self.scene, "sight", aov)
+        return aov
+
+    @contextmanager
+    def depth_alone(self, camera, size):
+        """Let the scene render nothing but the depth layer, through another camera."""
+        render, shot_camera = self.scene.render, self.scene.camera
+        kept = {name: getattr(render, name) for name in
+                ("resolution_x", "resolution_y", "pixel_aspect_x", "pixel_aspect_y")}
+        self._render_only(lambda name: name == "depth")
+        self._set_sight(0.0)
+        self.scene.camera = camera
+        render.resolution_x = render.resolution_y = size
+        render.pixel_aspect_x = render.pixel_aspect_y = 1.0
+        try:
+            yield
+        finally:
+            for name, value in kept.items():
+                setattr(render, name, value)
+            self.scene.camera = shot_camera
+            self._set_sight(1.0)
+            self._render_only(lambda name: name != "depth")
+
+    def _render_only(self, wanted):
+        for view_layer in self.scene.view_layers:
+            view_layer.use = wanted(view_layer.name)
+
+    def _set_sight(self, value):
+        if self._sight:
+            self._sight.switch(value)
+
+    def finish(self):
+        """Keep every lamp out of all layers but its own."""
+        depth = self._add_layer(self.scene, "depth", [], 1)
+        depth.use_pass_z = True
+        if self._sight:
+            # The material of the layer before it: with another the geometry would be read again.
+            depth.material_override = self._sight.material
+        self._render_only(lambda name: name != "depth")
+        lit = {name: link_collection(self._scene_of(name), name, lamps)
+               for name, lamps in self._lamps.items() if lamps}
+        for scene in self.scenes:
+            for view_layer in scene.view_layers:
+                show_only(view_layer, [self.subjects, lit.get(view_layer.name)])
+        # Layers that share their scene's data between them must have the same AOVs, or Cycles
+        # writes some into others (before 5.2).
+        for view_layer in self.scene.view_layers:
+            for aov in self._sight_names:
+                made = view_layer.aovs.add()
+                made.name, made.type = aov, 'VALUE'
+
+    def _scene_of(self, layer):
+        return next(scene for scene in self.scenes if layer in scene.view_layers)
+
+    def _sampled_scene(self):
+        if self._sampled is None:
+            self._sampled = exact_scene(self._artist_scene, "sampled")
+            self._sampled.collection.children.link(self.subjects)
+            self._sampled.view_layers[0].name = "unused"
+            for view_layer in self._sampled.view_layers:
+                view_layer.use = False
+        return self._sampled
+
+    def _add_layer(self, scene, name, lamps, samples):
+        view_layer = scene.view_layers.new(name)
         if view_layer.name != name:
             raise ExportError(f"the layer name '{name}' cannot be used in Blender")
         view_layer.samples = samples
         view_layer.material_override = self.material
-        self._lamps[name] = link_collection(self.scene, name, [lamp])
+        self._lamps[name] = lamps
         return view_layer
-
-    def finish(self):
-        """Keep every lamp out of all layers but its own."""
-        for view_layer in self.scene.view_layers:
-            show_only(view_layer, [self.subjects, self._lamps[view_layer.name]])
 
 
 class Writer:
@@ -183,11 +286,19 @@ class Writer:
         render.resolution_percentage = 100
         render.use_stamp_date = render.use_stamp_filename = render.use_stamp_render_time = False
         self.tree = compat.compositor_tree(self.scene)
+        self._sources = {}
         self.file = compat.LayerFile(self.tree)
 
     @property
     def names(self):
         return self.file.names
+
+    def _source_of(self, scene, layer_name):
+        """The one node for a layer that many readings share."""
+        key = scene.name, layer_name
+        if key not in self._sources:
+            self._sources[key] = self.source(scene, layer_name)
+        return self._sources[key]
 
     def source(self, scene, layer_name):
         node = self.tree.nodes.new('CompositorNodeRLayers')
@@ -204,22 +315,23 @@ class Writer:
             raise ExportError(f"Blender gives no {pass_name} pass for layer '{node.layer}'")
         self.add(socket, name)
 
-    def add_reading(self, scene, layer, reading):
-        """One channel, as `reading` says, of a view layer of `scene`."""
-        value = self._red(scene, layer, reading.pass_name)
+    def add_reading(self, layer, reading):
+        """One channel, as `reading` says."""
+        value = self._first_channel(reading, reading.view_layer)
         if reading.threshold is not None:
             value = self._calculated('GREATER_THAN', value, reading.threshold)
         if reading.share_of:
             # 0 divided by 0, where no light arrives, is 0 to the compositor.
-            whole = self._red(scene, reading.share_of, reading.pass_name)
+            whole = self._first_channel(reading, reading.share_of)
             value = self._calculated('DIVIDE', value, whole)
         self.add(value, layer)
 
-    def _red(self, scene, layer, pass_name):
-        socket = compat.output_socket(self.source(scene, layer), pass_name)
+    def _first_channel(self, reading, view_layer):
+        socket = compat.output_socket(self._source_of(reading.scene, view_layer), reading.pass_name)
         if socket is None:
-            raise ExportError(f"Blender gives no {pass_name} pass for layer '{layer}'")
-        return compat.first_channel_of_colour(self.tree, socket)
+            raise ExportError(f"Blender gives no {reading.pass_name} pass for layer '{view_layer}'")
+        return socket if socket.type == 'VALUE' else \
+            compat.first_channel_of_colour(self.tree, socket)
 
     def _calculated(self, operation, first, second):
         node = compat.math_node(self.tree, operation)

@@ -11,8 +11,12 @@ def frame_range(settings, scene):
 
 def export_words(settings, scene, output):
     """Words after Blender's `--`; `output` is an absolute path pattern."""
-    masks = f"line:{settings.line_count}" if settings.masks == 'line' else settings.masks
+    counts = {'line': settings.line_count, 'trace': settings.trace_count}
+    masks = settings.masks
+    if masks in counts:
+        masks = f"{masks}:{counts[masks]}"
     words = ["--output", output, f"--frames={frame_range(settings, scene)}", "--masks", masks,
+             "--masks-by", settings.masks_by,
              "--scale", str(settings.scale), "--depth-size", str(settings.depth_size)]
     if settings.light:
         words.append(f"--light={settings.light.name}")

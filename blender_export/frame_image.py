@@ -15,17 +15,21 @@ from .output_names import LONGEST_LAYER
 def shot_writer(beauty_scene, beauty_layer, data):
     """The writer of a frame: data, Cryptomatte, beauty, masks and truth, and notes on what is left out."""
     writer = Writer(beauty_scene, "shot")
+    # Scenes are rendered in the order of their nodes, and one that keeps no data throws away what
+    # others keep: the beauty goes first, so that the depth maps find the data scene's geometry.
+    beauty = writer.source(beauty_scene, beauty_layer.name)
     node = writer.source(data.scene, "data")
     for name in DATA_PASSES:
         writer.add_pass(node, name, f"data.{name}")
-    notes = _add_beauty(writer, writer.source(beauty_scene, beauty_layer.name))
+    notes = _add_beauty(writer, beauty)
     for layer, reading in data.layers.items():
-        writer.add_reading(data.scene, layer, reading)
+        writer.add_reading(layer, reading)
     return writer, notes
 
 
-def depth_writer(depth_scene):
+def depth_writer(depth_scene, size):
     writer = Writer(depth_scene, "light depth")
+    writer.scene.render.resolution_x = writer.scene.render.resolution_y = size
     writer.add_pass(writer.source(depth_scene, "depth"), "Depth", "Depth")
     return writer
 

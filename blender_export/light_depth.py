@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Renders a light's depth map: the scene as the light sees it, in its own scene and render call."""
+"""Renders a light's depth map: the scene as the light sees it, in its own render call."""
 
 import bpy
 from mathutils import Matrix
@@ -11,22 +11,14 @@ from .subject import bounding_sphere, corners_of, standing_things
 
 
 class LightDepth:
-    def __init__(self, artist_scene, subjects, material, size):
-        self.scene = export_scenes.exact_scene(artist_scene, "light depth")
-        self.subjects = subjects
-        view_layer = export_scenes.replace_view_layers(self.scene, "depth")
-        view_layer.use_pass_z = True
-        view_layer.material_override = material
-        collection = export_scenes.link_collection(self.scene, "casters", subjects)
-        export_scenes.show_only(view_layer, [collection])
-        render = self.scene.render
-        render.resolution_x = render.resolution_y = size
-        render.pixel_aspect_x = render.pixel_aspect_y = 1.0
-        data = bpy.data.cameras.new(export_scenes.PREFIX + "light")
-        self.camera = bpy.data.objects.new(export_scenes.PREFIX + "light", data)
-        self.scene.collection.objects.link(self.camera)
-        self.scene.camera = self.camera
-        self.writer = frame_image.depth_writer(self.scene)
+    """Renders in the data scene, which has the geometry at hand, through a camera at the light."""
+
+    def __init__(self, data, subjects, size):
+        self.data, self.subjects, self.size = data, subjects, size
+        camera = bpy.data.cameras.new(export_scenes.PREFIX + "light")
+        self.camera = bpy.data.objects.new(export_scenes.PREFIX + "light", camera)
+        data.scene.collection.objects.link(self.camera)
+        self.writer = frame_image.depth_writer(data.scene, size)
 
     def render(self, light_view, frame, path):
         """Render what `light_view` sees into a part file; returns the part's path.
@@ -34,11 +26,14 @@ class LightDepth:
         The map shows what casts shadows, whether the shot's camera sees it or not.
         """
         self._aim(light_view)
-        seen = {item: item.visible_camera for item in self.subjects}
-        for item in self.subjects:
+        # Setting it, even to what it is, makes Cycles read the geometry again.
+        seen = {item: item.visible_camera for item in self.subjects
+                if item.visible_camera != item.visible_shadow}
+        for item in seen:
             item.visible_camera = item.visible_shadow
         try:
-            return frame_image.render(self.writer, frame, path)
+            with self.data.depth_alone(self.camera, self.size):
+                return frame_image.render(self.writer, frame, path)
         finally:
             for item, visible in seen.items():
                 item.visible_camera = visible

@@ -3,29 +3,31 @@
 
 from . import light_offset, mask_positions, vectors
 from .errors import ExportError
-from .light_state import (area_extents, new_mask_lamp, new_truth_lamp, place_mask_lamp, place_truth_lamp,
-                          read_light, travel_direction, TYPES)
-from .output_names import mask_layer, truth_layer
+from .light_state import (area_extents, new_truth_lamp, place_truth_lamp, read_light,
+                          travel_direction)
+from .output_names import traced_layer, truth_layer
 from .subject import Sphere
 
 
 class LightRig:
-    def __init__(self, light, name, key, masked, options, data):
+    def __init__(self, light, name, key, masked, options, data, backends):
         """`name` is the light's own in the JSON; a light that is not `masked` casts no shadow."""
         self.light, self.name, self.key, self.masked, self.options = light, name, key, masked, options
-        self.mask_lamps, self.truth_lamps = {}, []
+        self.masks, self.truth_lamps = None, []
         if not masked:
             return
         self._refuse_what_cannot_work()
-        kind = TYPES[light.data.type]
-        for number in range(options.masks.count):
-            layer = mask_layer(key, number)
-            self.mask_lamps[layer] = new_mask_lamp(light, kind, layer)
-            data.add_shadow_layer(layer, self.mask_lamps[layer])
+        if options.masks.kind == "trace":
+            self._trace(data, traced_layer(key), options.masks.count)
+        else:
+            self.masks = backends.masks_of(light, key, options.masks.count)
         if options.truth_samples:
-            layer = truth_layer(key)
-            self.truth_lamps = [new_truth_lamp(light, layer, shadow) for shadow in (True, False)]
-            data.add_truth_layer(layer, *self.truth_lamps, options.truth_samples)
+            self._trace(data, truth_layer(key), options.truth_samples)
+
+    def _trace(self, data, layer, samples):
+        lamps = [new_truth_lamp(self.light, layer, shadow) for shadow in (True, False)]
+        self.truth_lamps += lamps
+        data.add_truth_layer(layer, *lamps, samples)
 
     def place(self, depsgraph, aim, radius):
         """Move the lamps to this frame's places; returns (light state, JSON entry).
@@ -41,9 +43,12 @@ class LightRig:
         entry = self._describe(state, travel, subject, evaluated)
         places = mask_positions.places_on_light(self.options.masks, travel, state.surface_axes)
         entry["axes"] = {"u": list(places.u_axis), "v": list(places.v_axis)}
-        if self.masked:
+        if self.masks:
             self._place_masks(state, travel, places, subject, entry)
-        if self.truth_lamps:
+        elif self.masked:
+            entry["traced"] = {"layer": traced_layer(self.key),
+                               "samples": self.options.masks.count}
+        if self.masked and self.options.truth_samples:
             entry["truth_layer"] = truth_layer(self.key)
             entry["truth_samples"] = self.options.truth_samples
         return state, entry
@@ -69,7 +74,7 @@ class LightRig:
         masks = self.options.masks
         offset = self.options.offset or self._auto_offset(state, subject)
         samples = []
-        for (layer, lamp), place in zip(self.mask_lamps.items(), places.places):
+        for number, (layer, place) in enumerate(zip(self.masks.names, places.places)):
             sample = {"layer": layer, "uv": list(place)}
             direction = None
             if state.kind == "sun":
@@ -78,9 +83,10 @@ class LightRig:
             else:
                 position = mask_positions.mask_position(state.position, places, place, offset)
                 sample["position"] = list(position)
-            place_mask_lamp(lamp, state, sample.get("position", entry["position"]), direction)
+            self.masks.place(number, state, sample.get("position", entry["position"]), direction)
             samples.append(sample)
-        entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples}
+        entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples,
+                          "by": self.masks.by}
 
     def _auto_offset(self, state, subject):
         distance = vectors.length(vectors.subtract(state.position, subject.center))

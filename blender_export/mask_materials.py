@@ -58,6 +58,8 @@ def keep_what_blocks(view_layers, override, objects):
         if view_layer.material_override == override:
             view_layer.material_override = None
             view_layer[SWITCH] = 1.0
+            # Kept data would keep the switch as the layer before has it.
+            view_layer.id_data.render.use_persistent_data = False
             cycles = view_layer.id_data.cycles
             cycles.transparent_max_bounces = max(cycles.transparent_max_bounces, MOST_LEAVES)
     return [f"volumes cast no shadow in the masks: {', '.join(fogs)}"] if fogs else []

@@ -38,6 +38,8 @@ def places_on_light(arrangement, travel, surface_axes=None):
     else:
         u_axis, back = vectors.perpendicular_frame(vectors.scale(travel, -1.0))
         v_axis = vectors.scale(back, -1.0)
+    if arrangement.kind == "trace":
+        return MaskPlaces(u_axis, v_axis, [])
     places = _line(arrangement.count) if arrangement.kind == "line" else _disc(arrangement.count)
     return MaskPlaces(u_axis, v_axis, places)
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from .errors import UsageError
 
-# Blender keeps 29 bytes of a layer's name in a multilayer file: `truth.` or `mask.` and `.63`
+# Blender keeps 29 bytes of a layer's name in a multilayer file: `traced.` or `mask.` and `.63`
 # around the light's name leave this much for it.
 LONGEST_KEY = 20
 LONGEST_LAYER = 29
@@ -83,3 +83,7 @@ def mask_layer(light_key, number):
 
 def truth_layer(light_key):
     return f"truth.{light_key}"
+
+
+def traced_layer(light_key):
+    return f"traced.{light_key}"

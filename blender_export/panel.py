@@ -6,7 +6,7 @@ from bpy.props import (BoolProperty, EnumProperty, FloatProperty, IntProperty, P
                        StringProperty)
 
 from . import compat, operators
-from .arguments import MOST_LINE_MASKS
+from .arguments import MOST_LINE_MASKS, MOST_SAMPLES
 
 
 class KagefudeSettings(bpy.types.PropertyGroup):
@@ -20,7 +20,17 @@ class KagefudeSettings(bpy.types.PropertyGroup):
                ('disc:33', "Disc of 33", "For wires and twigs before a wide light"),
                ('disc:5', "Disc of 5", "Centre and ring of four"),
                ('line', "Line", "Along a tube light, or across the view of the subject"),
-               ('pair', "Pair", "Two on the axis to the subject; not for suns")))
+               ('pair', "Pair", "Two on the axis to the subject; not for suns"),
+               ('trace', "Traced", "No masks: the light's own soft shadow, traced and noisy")))
+    trace_count: IntProperty(name="Samples", default=64, min=1, max=MOST_SAMPLES,
+                             description="Samples a pixel of the traced shadow")
+    masks_by: EnumProperty(
+        name="Masks by", default='auto', description="How the masks are rendered",
+        items=(('auto', "Automatic", "The fastest way that is right for each light"),
+               ('layers', "Layers", "A view layer for each mask: right for everything"),
+               ('groups', "Light Groups", "A light group for each mask, many samples"),
+               ('occlusion', "Occlusion Rays", "All masks in one sample, before Blender 5.1"),
+               ('raycast', "Raycast", "All masks in one sample, from Blender 5.1 on")))
     line_count: IntProperty(name="Masks on the Line", default=5, min=2, max=MOST_LINE_MASKS)
     offset_auto: BoolProperty(
         name="Offset from Light", default=True,
@@ -72,6 +82,10 @@ class KAGEFUDE_PT_export(bpy.types.Panel):
         column.prop(settings, "masks")
         if settings.masks == 'line':
             column.prop(settings, "line_count")
+        if settings.masks == 'trace':
+            column.prop(settings, "trace_count")
+        else:
+            column.prop(settings, "masks_by")
         column.prop(settings, "offset_auto")
         if not settings.offset_auto:
             column.prop(settings, "offset")

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "base/glob.h"
 #include "compositor/frame_edges.h"
 #include "compositor/frame_tone.h"
+#include "compositor/output_layers.h"
 #include "compositor/paint_styles.h"
 #include "compositor/styled_surfaces.h"
 #include "image/parallel.h"
@@ -14,8 +14,6 @@
 
 namespace kagefude {
 namespace {
-
-bool asksFor(const Look& look, const char* layer) { return matchesAny(layer, look.output.layers); }
 
 /// Repeat counts run far above 1; their fractions show the rings.
 Floats fractions(View<const float> values) {
@@ -81,7 +79,6 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   lap(clock, "surfaces");
   if (sink) showInputs(planes, surfaces, *sink);
   Floats tone = frameTone(look, plan, planes, surfaces, result, sink, clock);
-  if (asksFor(look, "surface.id")) result.surfaceId = std::move(surfaces);
 
   const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
   adjustTone(tone, styled.anchorIndex, styled.tones);
@@ -106,12 +103,13 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   result.colour.z = std::move(brush.b);
   result.alpha = std::move(brush.a);
   if (sink) sink->picture("result", result.colour);
-  if (asksFor(look, "brush.tone")) result.layers.push_back({"brush.tone", std::move(tone)});
-  if (asksFor(look, "outline")) result.layers.push_back({"outline", std::move(outline)});
-  if (asksFor(look, "brush.angle"))
-    result.layers.push_back({"brush.angle", std::move(brush.angle)});
-  if (asksFor(look, "brush.repeat"))
-    result.layers.push_back({"brush.repeat", std::move(brush.repeat)});
+  LayerSources sources{planes};
+  sources.tone = std::move(tone);
+  sources.outline = std::move(outline);
+  sources.angle = std::move(brush.angle);
+  sources.repeat = std::move(brush.repeat);
+  sources.surfaces = std::move(surfaces);
+  takeLayers(look, LayerStage::frame, sources, result);
   return result;
 }
 

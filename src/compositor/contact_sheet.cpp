@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "exr/write_image.h"
+#include "image/box_reduce.h"
 #include "image/parallel.h"
 #include "passes/search/classes.h"
 #include "picture/draw_text.h"
@@ -47,16 +48,10 @@ void ContactSheet::add(const std::string& title, int width, int height, const Pi
   parallelRows(down, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < across; ++x) {
-        const auto from = [](int i, int tiles, int size) {
-          return static_cast<int>(static_cast<int64_t>(i) * size / tiles);
-        };
-        const int x0 = from(x, across, width), y0 = from(y, down, height);
-        const int x1 = average ? std::max(x0 + 1, from(x + 1, across, width)) : x0 + 1;
-        const int y1 = average ? std::max(y0 + 1, from(y + 1, down, height)) : y0 + 1;
-        V3f sum(0, 0, 0);
-        for (int sy = y0; sy < y1; ++sy)
-          for (int sx = x0; sx < x1; ++sx) sum += pixel(sx, sy);
-        sum /= static_cast<float>((x1 - x0) * (y1 - y0));
+        BoxSpan overX = boxSpan(x, width, across), overY = boxSpan(y, height, down);
+        if (!average) overX.end = overX.first + 1, overY.end = overY.first + 1;
+        V3f sum = boxSum<V3f>(overX, overY, pixel);
+        sum /= static_cast<float>(pixelsIn(overX, overY));
         tile.r(x, y) = sum.x;
         tile.g(x, y) = sum.y;
         tile.b(x, y) = sum.z;

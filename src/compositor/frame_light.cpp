@@ -14,8 +14,6 @@ namespace {
 
 V3f toFloat(const V3d& v) { return V3f(v); }
 
-Light::Type typeOf(LightType type) { return static_cast<Light::Type>(type); }
-
 /// The settings of the last [[light]] that matches, or the look's own.
 const LightLook* settingsOf(const Look& look, const std::string& name) {
   const LightLook* found = nullptr;
@@ -103,7 +101,7 @@ bool moveLight(const LightLook* settings, FrameLight& light) {
 FrameLight fromSidecar(const Look& look, const SidecarLight& source, bool hasCasters) {
   FrameLight light;
   light.name = source.name;
-  light.light = {typeOf(source.type),
+  light.light = {source.type,
                  toFloat(source.position),
                  toFloat(source.direction),
                  static_cast<float>(source.radius),
@@ -180,7 +178,7 @@ FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool
   const LightParams& params = settings.light;
   FrameLight light;
   light.name = params.name;
-  light.light.type = static_cast<Light::Type>(params.type);
+  light.light.type = params.type;
   light.light.position = vectorFrom(params.position, {0, 0, 0});
   light.light.direction = vectorFrom(params.direction, {0, 0, -1}).normalized();
   light.light.radius = params.radius;
@@ -204,7 +202,7 @@ FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool
 bool isGlob(const std::string& name) { return name.find_first_of("*?") != std::string::npos; }
 
 bool describesLight(const LightParams& params) {
-  return !params.position.empty() || (!params.direction.empty() && params.type == LightKind::sun);
+  return !params.position.empty() || (!params.direction.empty() && params.type == LightType::sun);
 }
 
 std::vector<FrameLight> allLights(const Look& look, const Sidecar* sidecar, int frame,

@@ -1,11 +1,10 @@
 #include "compositor/frame_memory.h"
 
-#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 
-#include "base/glob.h"
+#include "compositor/output_layers.h"
 
 namespace kagefude {
 namespace {
@@ -20,18 +19,6 @@ constexpr size_t asHalf = 8;
 constexpr size_t ofIds = 4;
 constexpr size_t ofReadingIds = 16;  // two ranks of a Cryptomatte
 constexpr size_t ofEdgeRanks = 32;   // four ranks of a Cryptomatte
-
-size_t layerBytes(const Look& look, const FramePlan& plan) {
-  std::vector<std::string> names = {"brush.tone", "brush.angle", "brush.repeat", "outline",
-                                    "surface.id"};
-  for (const FrameLight& light : plan.lights)
-    for (const char* kind : {"visibility", "confidence", "coverage"})
-      names.push_back(fmt::format("{}.{}", kind, light.name));
-  const auto asked = std::count_if(names.begin(), names.end(), [&](const std::string& name) {
-    return matchesAny(name, look.output.layers);
-  });
-  return 4 * static_cast<size_t>(asked);
-}
 
 size_t inputBytes(const FramePlan& plan) {
   size_t bytes = 0;
@@ -78,7 +65,7 @@ size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
   if (plan.albedo) floats += 4 * 3;
   if (plan.beauty) floats += 4 * 4;
   const size_t ids = plan.materialId ? 2 * ofIds : ofIds;
-  const size_t layers = layerBytes(look, plan);
+  const size_t layers = layerBytes(look, plan.lights);
   const size_t edges = plan.coverage ? ofEdgeRanks : 0;
   const size_t tones = 4 * plan.lights.size();
   const size_t input = inputBytes(plan);

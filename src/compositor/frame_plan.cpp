@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/glob.h"
+#include "compositor/output_layers.h"
 #include "frame/casters.h"
 #include "frame/cryptomatte.h"
 
@@ -71,8 +71,7 @@ void planCoverage(const Look& look, const AovNames& names, FramePlan& plan) {
 }
 
 bool wantsOutlines(const Look& look) {
-  return matchesAny("outline", look.output.layers) ||
-         anyStyleHas(look, &StyleParams::outlineColour);
+  return asksFor(look, "outline") || anyStyleHas(look, &StyleParams::outlineColour);
 }
 
 void nameObjectsFromSidecar(FramePlan& plan) {
@@ -140,6 +139,7 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   plan.hasCasters = plan.sidecar && !readCasterEntries(plan.sidecar->path).empty();
   plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame,
                              plan.hasCasters);
+  checkLayers(look, plan.lights);
   return plan;
 }
 

@@ -7,10 +7,16 @@
 
 namespace kagefude {
 
-/// A float layer beside the picture, under the name that it gets in the file.
+/// The values of a layer: one of the two.
+struct LayerPlane {
+  Floats floats;
+  Labels labels;
+};
+
+/// A layer beside the picture, under the name that it gets in the file.
 struct NamedPlane {
   std::string name;
-  Floats plane;
+  LayerPlane plane;
 };
 
 /// A composited frame in the working space, alpha associated, one value a pixel of the data window.
@@ -18,7 +24,6 @@ struct FrameResult {
   Vec3Plane colour;
   Floats alpha;
   std::vector<NamedPlane> layers;
-  Labels surfaceId;  ///< empty unless asked for
   std::vector<std::string> warnings;
 };
 

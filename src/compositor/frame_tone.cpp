@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "base/glob.h"
 #include "compositor/light_visibility.h"
+#include "compositor/output_layers.h"
 #include "image/parallel.h"
 #include "passes/tone/lambert.h"
 #include "passes/tone/merge.h"
@@ -19,12 +19,6 @@ void weaken(View<float> visibility, float strength) {
       for (int x = 0; x < visibility.width; ++x)
         visibility(x, y) = 1.0f - strength * (1.0f - visibility(x, y));
   });
-}
-
-Floats complement(View<const float> visibility) {
-  Floats hidden(visibility.width, visibility.height);
-  for (size_t i = 0; i < visibility.pixels(); ++i) hidden.row(0)[i] = 1.0f - visibility.data[i];
-  return hidden;
 }
 
 std::vector<float> normalisedWeights(const std::vector<FrameLight>& lights) {
@@ -54,17 +48,11 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
     mergeTone(visibility, tone, light.passes.merge, tone);
     tones.push_back(std::move(tone));
     lap(clock, fmt::format("shade and merge of {}", light.name));
-    const bool geometric = light.method == ShadowMethod::coverage;
-    if (geometric && matchesAny(fmt::format("coverage.{}", light.name), look.output.layers))
-      result.layers.push_back({fmt::format("coverage.{}", light.name), complement(visibility)});
-    const std::string name = fmt::format("visibility.{}", light.name);
-    if (matchesAny(name, look.output.layers))
-      result.layers.push_back({name, std::move(visibility)});
-    const std::string confidence = fmt::format("confidence.{}", light.name);
-    if (matchesAny(confidence, look.output.layers)) {
-      if (shadow.confidence.empty()) shadow.confidence = Floats(planes.width, planes.height, 1.0f);
-      result.layers.push_back({confidence, std::move(shadow.confidence)});
-    }
+    LayerSources sources{planes};
+    sources.light = &light;
+    sources.visibility = std::move(visibility);
+    sources.confidence = std::move(shadow.confidence);
+    takeLayers(look, LayerStage::light, sources, result);
   }
   if (tones.size() == 1) return std::move(tones.front());
   Floats sum(planes.width, planes.height);

@@ -38,9 +38,9 @@ void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& resu
       floatChannel("R", colour, result.colour.x), floatChannel("G", colour, result.colour.y),
       floatChannel("B", colour, result.colour.z), floatChannel("A", colour, result.alpha)};
   for (const NamedPlane& layer : result.layers)
-    image.channels.push_back(floatChannel(layer.name, PixelType::single, layer.plane));
-  if (!result.surfaceId.empty())
-    image.channels.push_back(labelChannel("surface.id", result.surfaceId));
+    image.channels.push_back(layer.plane.labels.empty()
+                                 ? floatChannel(layer.name, PixelType::single, layer.plane.floats)
+                                 : labelChannel(layer.name, layer.plane.labels));
   std::vector<RawPlane> others;
   if (look.output.passthrough) {
     others = readOthers(plan, image.channels);

@@ -13,25 +13,10 @@
 #include <OpenEXR/ImfTimeCodeAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
 
-#include <set>
-#include <string_view>
+#include "exr/reserved_attributes.h"
 
 namespace kagefude::detail {
 namespace {
-
-const std::set<std::string_view> impliedAttributes = {"channels",
-                                                      "compression",
-                                                      "dataWindow",
-                                                      "displayWindow",
-                                                      "lineOrder",
-                                                      "pixelAspectRatio",
-                                                      "screenWindowCenter",
-                                                      "screenWindowWidth",
-                                                      "type",
-                                                      "name",
-                                                      "version",
-                                                      "chunkCount",
-                                                      "tiles"};
 
 template <class Attribute>
 const auto* valueOf(const Imf::Attribute& attribute) {
@@ -87,7 +72,7 @@ std::optional<ExrValue> convert(const Imf::Attribute& a) {
 std::optional<std::vector<ExrAttribute>> fastAttributes(const Imf::Header& header) {
   std::vector<ExrAttribute> attributes;
   for (auto a = header.begin(); a != header.end(); ++a) {
-    if (impliedAttributes.contains(a.name())) continue;
+    if (isReservedAttribute(a.name())) continue;
     auto value = convert(a.attribute());
     if (!value) return std::nullopt;
     attributes.push_back({a.name(), *std::move(value)});

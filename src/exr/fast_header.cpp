@@ -8,17 +8,13 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "exr/reserved_attributes.h"
 
 namespace kagefude {
 namespace {
 
 constexpr size_t longestShortName = 31;
 constexpr size_t longestName = 255;
-
-constexpr std::string_view reservedNames[] = {
-    "channels",          "compression",        "dataWindow", "displayWindow", "lineOrder",
-    "pixelAspectRatio",  "screenWindowCenter", "type",       "name",          "version",
-    "screenWindowWidth", "chunkCount",         "tiles"};
 
 /// Sets one attribute; a value's type picks the EXR type.
 struct SetAttribute {
@@ -190,7 +186,7 @@ void checkExrImage(const std::string& path, const ExrImage& image) {
                     "can hold",
                     path, image.channels.size(), image.data.width));
   }
-  std::set<std::string> attributes(std::begin(reservedNames), std::end(reservedNames));
+  std::set<std::string> attributes(reservedAttributes.begin(), reservedAttributes.end());
   for (const ExrAttribute& attribute : image.attributes) {
     checkName(path, "attribute", attribute.name, attributes);
   }

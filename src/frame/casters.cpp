@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/folder_bound.h"
 
 namespace kagefude {
 namespace {
@@ -30,13 +31,6 @@ std::string readText(const fs::path& path, const char* what) {
   if (!in.read(text.data(), static_cast<std::streamsize>(size)))
     throw InputError(fmt::format("{}: cannot read {}", path.string(), what));
   return text;
-}
-
-bool staysInside(const fs::path& path) {
-  if (path.empty() || path.is_absolute()) return false;
-  for (const fs::path& part : path)
-    if (part == "..") return false;
-  return true;
 }
 
 Transform transformOf(const Json& rows) {
@@ -62,7 +56,7 @@ CasterEntry entryOf(const Json& json, const fs::path& sidecar, size_t index) {
     return json[key].get<std::string>();
   };
   CasterEntry entry{text("object"), text("file"), {}};
-  if (!staysInside(entry.file)) throw wrong("names a file outside of the sidecar's folder");
+  if (!staysInFolder(entry.file)) throw wrong("names a file outside of the sidecar's folder");
   try {
     entry.worldFromObject = transformOf(json.value("world_from_object", Json()));
   } catch (const InputError&) {

@@ -5,22 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/folder_bound.h"
 #include "frame/cryptomatte.h"
 
 namespace kagefude {
 namespace {
 
 constexpr uint64_t largestManifest = uint64_t{256} << 20;
-
-bool staysInFolder(const std::filesystem::path& relative) {
-  if (relative.empty() || relative.is_absolute()) return false;
-  for (const auto& step : relative) {
-    if (step == "..") return false;
-  }
-  // A path written on another system: its drive letters and separators are not ours.
-  const std::string text = relative.string();
-  return text.find('\\') == std::string::npos && text.find(':') == std::string::npos;
-}
 
 std::optional<uint32_t> parseId(const nlohmann::json& value) {
   if (!value.is_string()) return std::nullopt;

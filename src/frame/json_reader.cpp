@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/folder_bound.h"
 #include "base/nearest_name.h"
 
 namespace kagefude::detail {
@@ -172,9 +173,7 @@ uint32_t JsonPlace::hexadecimal() const {
 
 std::filesystem::path JsonPlace::fileBeside() const {
   const std::filesystem::path relative = name();
-  bool inside = !relative.is_absolute() && relative.string().find('\0') == std::string::npos;
-  for (const auto& step : relative) inside = inside && step != "..";
-  if (!inside) refuse("a path below the JSON's own folder");
+  if (!staysInFolder(relative)) refuse("a path below the JSON's own folder");
   return file_->parent_path() / relative;
 }
 

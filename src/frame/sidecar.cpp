@@ -128,7 +128,8 @@ void readOptions(const JsonPlace& json, SidecarLight& light) {
 SidecarLight readLight(const JsonPlace& json) {
   SidecarLight light;
   light.name = json["name"].name();
-  light.type = static_cast<LightType>(json["type"].choice({"point", "spot", "sun", "area"}));
+  light.type = static_cast<LightType>(
+      json["type"].choice({std::begin(lightTypeNames), std::end(lightTypeNames)}));
   light.position = json["position"].vector();
   light.direction = json["direction"].unitVector();
   light.radius = json["radius"].number(0, large);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "image/vec.h"
+#include "passes/tone/light.h"
 
 namespace kagefude {
 
@@ -46,8 +47,6 @@ struct LightDepthMap {
   Transform lightFromWorld;  ///< the light's camera looks along -Z; stored depth is -z there
   Transform clipFromLight;
 };
-
-enum class LightType { point, spot, sun, area };
 
 /// Outline of an area light: half its sides in world units, along the light's axes u and v.
 struct AreaShape {

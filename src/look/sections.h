@@ -6,7 +6,9 @@
 
 #include "base/parameter.h"
 #include "exr/write_image.h"
+#include "look/output_layers.h"
 #include "look/shadow_methods.h"
+#include "passes/tone/light.h"
 
 // The look's sections that are not a pass's own parameters. Each is declared once, here.
 namespace kagefude {
@@ -21,7 +23,7 @@ struct ShadowParams {
   std::string blob;
 };
 inline constexpr Parameter shadowParameters[] = {
-    choice<&ShadowParams::method>("method", shadowMethodNames, shadowMethodHelp),
+    choice<&ShadowParams::method>("method", shadowMethodNames, shadowMethodHelp.view()),
     plain<&ShadowParams::lights>("lights", "names or globs of the lights that take part"),
     number<&ShadowParams::strength>("strength", 0, 1, "",
                                     "share of the light that a full shadow takes away"),
@@ -95,10 +97,7 @@ struct OutputParams {
   Compression compression = Compression::zip;
 };
 inline constexpr Parameter outputParameters[] = {
-    plain<&OutputParams::layers>(
-        "layers",
-        "layers beside R,G,B,A, names or globs: visibility.<light>, confidence.<light>, "
-        "coverage.<light>, brush.tone, brush.angle, brush.repeat, outline, surface.id"),
+    plain<&OutputParams::layers>("layers", outputLayerHelp.view()),
     plain<&OutputParams::passthrough>("passthrough",
                                       "also writes every other input channel unchanged"),
     choice<&OutputParams::background>("background", backgroundNames,
@@ -155,14 +154,11 @@ inline constexpr Parameter styleParameters[] = {
 inline constexpr ParameterTable styleTable{"style", "paints objects or materials with a strip",
                                            "002 fig. 5.5", styleParameters};
 
-enum class LightKind { point, spot, sun, area };
-inline constexpr std::string_view lightKindNames[] = {"point", "spot", "sun", "area"};
-
 /// One [[light]]: settings for lights of the sidecar whose name matches, or a light of its own
 /// where no sidecar describes it (then `masks` or `depth_map` name its layers or file).
 struct LightParams {
   std::string name;
-  LightKind type = LightKind::point;
+  LightType type = LightType::point;
   std::vector<float> position;
   std::vector<float> direction;
   float radius = 0.0f;
@@ -175,7 +171,7 @@ struct LightParams {
 };
 inline constexpr Parameter lightParameters[] = {
     plain<&LightParams::name>("name", "name or glob of the light"),
-    choice<&LightParams::type>("type", lightKindNames, "kind of a light that no sidecar describes"),
+    choice<&LightParams::type>("type", lightTypeNames, "kind of a light that no sidecar describes"),
     numbers<&LightParams::position>(
         "position", 3, -1e12, 1e12, "world units",
         "where it stands; moves a light of the sidecar, which then takes its shadow from "

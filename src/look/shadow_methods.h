@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "look/help_text.h"
+
 namespace kagefude {
 
 struct LightVisibility;
@@ -167,9 +169,11 @@ constexpr auto namesOfShadowMethods() {
   return names;
 }
 
-/// Puts "where the visibility comes from: <name>: <sentence>; ..." through `put`, text by text.
-template <class Put>
-constexpr void spellShadowMethods(Put put) {
+}  // namespace detail
+
+/// What `shadow.method` takes, and its help: from the rows above.
+inline constexpr auto shadowMethodNames = detail::namesOfShadowMethods();
+inline constexpr JoinedText shadowMethodHelp([](auto put) {
   put("where the visibility comes from");
   for (size_t i = 0; i < shadowMethods.size(); ++i) {
     put(i == 0 ? ". " : "; ");
@@ -177,29 +181,6 @@ constexpr void spellShadowMethods(Put put) {
     put(": ");
     put(shadowMethods[i].sentence);
   }
-}
-
-constexpr size_t lengthOfShadowMethodHelp() {
-  size_t length = 0;
-  spellShadowMethods([&](std::string_view text) { length += text.size(); });
-  return length;
-}
-
-constexpr auto textOfShadowMethodHelp() {
-  std::array<char, lengthOfShadowMethodHelp()> help{};
-  size_t at = 0;
-  spellShadowMethods([&](std::string_view text) {
-    for (const char c : text) help[at++] = c;
-  });
-  return help;
-}
-inline constexpr auto shadowMethodHelpText = textOfShadowMethodHelp();
-
-}  // namespace detail
-
-/// What `shadow.method` takes, and its help: from the rows above.
-inline constexpr auto shadowMethodNames = detail::namesOfShadowMethods();
-inline constexpr std::string_view shadowMethodHelp(detail::shadowMethodHelpText.data(),
-                                                   detail::shadowMethodHelpText.size());
+});
 
 }  // namespace kagefude

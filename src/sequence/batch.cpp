@@ -87,27 +87,47 @@ class Loop {
     }
   }
 
+  /// Admits what fits. Estimates read headers, so they are made outside the lock, one at a time;
+  /// whoever makes one comes back for what has become free meanwhile.
   void admit() {
-    size_t begun = 0;
-    {
-      std::lock_guard lock(mutex_);
-      while (next_ < count_ && inFlight_ < maxFrames_ && next_ <= firstFatal_ &&
-             !options_.stop.stop_requested()) {
-        if (!nextMemory_) nextMemory_ = estimate(next_);
-        // A frame that is too large by itself is let through to fail with that reason.
-        const size_t memory = tooLarge(*nextMemory_) ? 0 : *nextMemory_;
-        if (options_.maxMemory > 0 && memory_ + memory > options_.maxMemory) break;
-        waiting_.push_back({next_++, *nextMemory_});
-        nextMemory_.reset();
-        memory_ += memory;
-        ++inFlight_;
-        ++begun;
-        result_.mostInFlight = std::max(result_.mostInFlight, inFlight_);
-        result_.mostMemory = std::max(result_.mostMemory, memory_);
+    for (;;) {
+      size_t begun = 0;
+      std::optional<size_t> unknown;
+      {
+        std::lock_guard lock(mutex_);
+        begun = admitKnown();
+        if (mayBegin() && !nextMemory_ && !estimating_) unknown = next_;
+        if (unknown) estimating_ = true;
       }
+      // Tasks take the oldest admitted frame, whichever task runs first.
+      for (; begun > 0; --begun) group_.run([this] { runNext(); });
+      if (!unknown) return;
+      const size_t memory = estimate(*unknown);
+      std::lock_guard lock(mutex_);
+      nextMemory_ = memory;
+      estimating_ = false;
     }
-    // Tasks take the oldest admitted frame, whichever task runs first.
-    for (; begun > 0; --begun) group_.run([this] { runNext(); });
+  }
+
+  bool mayBegin() const {
+    return next_ < count_ && inFlight_ < maxFrames_ && next_ <= firstFatal_ &&
+           !options_.stop.stop_requested();
+  }
+
+  size_t admitKnown() {
+    size_t begun = 0;
+    for (; mayBegin() && nextMemory_; ++begun) {
+      // A frame that is too large by itself is let through to fail with that reason.
+      const size_t memory = tooLarge(*nextMemory_) ? 0 : *nextMemory_;
+      if (options_.maxMemory > 0 && memory_ + memory > options_.maxMemory) break;
+      waiting_.push_back({next_++, *nextMemory_});
+      nextMemory_.reset();
+      memory_ += memory;
+      ++inFlight_;
+      result_.mostInFlight = std::max(result_.mostInFlight, inFlight_);
+      result_.mostMemory = std::max(result_.mostMemory, memory_);
+    }
+    return begun;
   }
 
   bool tooLarge(size_t memory) const {
@@ -187,7 +207,8 @@ class Loop {
   mutable std::mutex mutex_;
   std::deque<Admitted> waiting_;
   size_t next_ = 0;
-  std::optional<size_t> nextMemory_;
+  std::optional<size_t> nextMemory_;  ///< of frame next_, once it is known
+  bool estimating_ = false;
   size_t inFlight_ = 0;
   size_t memory_ = 0;
   size_t firstFatal_ = kNone;

@@ -28,8 +28,9 @@ struct Stages {
   std::function<Input(size_t index)> read;
   std::function<Output(size_t index, Input)> compute;
   std::function<void(size_t index, Output)> write;
-  /// The most bytes that the frame needs while it is in flight; 0 when unknown. May read headers;
-  /// what it throws is left to `read` to say. Absent: no bound by memory.
+  /// The most bytes that the frame needs while it is in flight; 0 when unknown. Called once a
+  /// frame, before its other stages, for one frame at a time. May read headers; what it throws is
+  /// left to `read` to say. Absent: no bound by memory.
   std::function<size_t(size_t index)> memory;
   /// True when the outputs are there and right, so that the frame is kept. Absent: none is.
   std::function<bool(size_t index)> isDone;

@@ -55,6 +55,11 @@ void addDepthMaps(const FramePlan& plan, Fingerprint& print) {
 
 }  // namespace
 
+struct CompBatch::Planned {
+  Fingerprint print;  ///< of the files as they were before they were looked into
+  FramePlan plan;
+};
+
 struct CompBatch::Read {
   FramePlan plan;
   FramePlanes planes;
@@ -74,15 +79,18 @@ CompBatch::CompBatch(const Look& look, CompRequest request)
       colour_(look.colourConfig()),
       strips_(look, colour_),
       common_(commonFingerprint(look, colour_)),
+      planned_(jobs_.size()),
       warnings_(jobs_.size()),
       thumbnails_(jobs_.size()) {
   if (jobs_.empty()) return;
   try {
-    planFrame(look_, jobs_.front().inputs.front(), jobs_.front().frame);
+    planned(0);
   } catch (const InputError&) {
     if (!request_.skipBadFrames) throw;
   }
 }
+
+CompBatch::~CompBatch() = default;
 
 Fingerprint CompBatch::fingerprint(const FrameJob& job) const {
   Fingerprint print = common_;
@@ -92,10 +100,21 @@ Fingerprint CompBatch::fingerprint(const FrameJob& job) const {
   return print;
 }
 
-bool CompBatch::isUpToDate(const FrameJob& job) const {
+CompBatch::Planned& CompBatch::planned(size_t index) {
+  std::unique_ptr<Planned>& slot = planned_[index];
+  if (slot) return *slot;
+  const FrameJob& job = jobs_[index];
+  Fingerprint print = fingerprint(job);
+  FramePlan plan = planFrame(look_, job.inputs.front(), job.frame);
+  addDepthMaps(plan, print);
+  slot = std::make_unique<Planned>(Planned{std::move(print), std::move(plan)});
+  return *slot;
+}
+
+bool CompBatch::isUpToDate(size_t index) {
+  const FrameJob& job = jobs_[index];
   try {
-    Fingerprint print = fingerprint(job);
-    addDepthMaps(planFrame(look_, job.inputs.front(), job.frame), print);
+    const Fingerprint& print = planned(index).print;
     if (openImage(job.outputs.front()).text(kFingerprintAttribute) != print.hex()) return false;
     for (size_t i = 1; i < job.outputs.size(); ++i)
       if (readPngText(job.outputs[i], kFingerprintAttribute) != print.hex()) return false;
@@ -110,20 +129,21 @@ bool CompBatch::isDone(size_t index) {
   const FrameJob& job = jobs_[index];
   for (const auto& output : job.outputs)
     if (!std::filesystem::exists(output)) return false;
-  if (request_.existing == ExistingOutputs::update && !isUpToDate(job)) return false;
+  if (request_.existing == ExistingOutputs::update && !isUpToDate(index)) return false;
+  planned_[index].reset();
   if (request_.thumbnails)
     thumbnails_[index] = storedThumbnail(look_, colour_, job.outputs.front());
   return true;
 }
 
-CompBatch::Read CompBatch::read(size_t index) const {
+CompBatch::Read CompBatch::read(size_t index) {
   const FrameJob& job = jobs_[index];
   if (job.missing) throw InputError(fmt::format("{} is not there", job.missing->string()));
-  Fingerprint print = fingerprint(job);
-  FramePlan plan = planFrame(look_, job.inputs.front(), job.frame);
-  addDepthMaps(plan, print);
-  FramePlanes planes = readFramePlanes(plan);
-  return {std::move(plan), std::move(planes), print.hex()};
+  Planned& input = planned(index);
+  FramePlanes planes = readFramePlanes(input.plan);
+  Read result{std::move(input.plan), std::move(planes), input.print.hex()};
+  planned_[index].reset();
+  return result;
 }
 
 CompBatch::Composed CompBatch::compose(size_t index, Read input) {
@@ -152,8 +172,7 @@ BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame)
   stages.compute = [this](size_t i, Read input) { return compose(i, std::move(input)); };
   stages.write = [this](size_t i, Composed output) { write(i, std::move(output)); };
   stages.memory = [this](size_t i) {
-    return frameMemory(look_, planFrame(look_, jobs_[i].inputs.front(), jobs_[i].frame),
-                       jobs_[i].outputs.size() > 1);
+    return frameMemory(look_, planned(i).plan, jobs_[i].outputs.size() > 1);
   };
   stages.isDone = [this](size_t i) { return isDone(i); };
   BatchOptions options;

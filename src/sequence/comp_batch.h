@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -43,19 +44,23 @@ class CompBatch {
  public:
   /// Throws UsageError, LookError and InputError as planFrames, Look, Colour and StripSet do.
   CompBatch(const Look& look, CompRequest request);
+  ~CompBatch();
 
   const std::vector<FrameJob>& jobs() const { return jobs_; }
   /// Runs all jobs in the current TBB arena; `onFrame` is never called twice at a time.
   BatchResult run(const std::function<void(const CompEvent&)>& onFrame);
 
  private:
+  struct Planned;
   struct Read;
   struct Composed;
-  Read read(size_t index) const;
+  /// The frame's plan, made once: when its memory is estimated, and the first when the batch is.
+  Planned& planned(size_t index);
+  Read read(size_t index);
   Composed compose(size_t index, Read input);
   void write(size_t index, Composed output) const;
   bool isDone(size_t index);
-  bool isUpToDate(const FrameJob& job) const;
+  bool isUpToDate(size_t index);
   /// Of everything that decides a frame's pixels. Files are looked at before they are read, so that
   /// one which changes meanwhile makes the frame stale.
   Fingerprint fingerprint(const FrameJob& job) const;
@@ -66,6 +71,7 @@ class CompBatch {
   Colour colour_;
   StripSet strips_;
   Fingerprint common_;                              ///< program, look and its files
+  std::vector<std::unique_ptr<Planned>> planned_;   ///< by job, from its plan to its reading
   std::vector<std::vector<std::string>> warnings_;  ///< by job; written by its own stage only
   std::vector<Thumbnail> thumbnails_;               ///< likewise
 };

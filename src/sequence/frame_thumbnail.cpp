@@ -5,6 +5,7 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "exr/read_channels.h"
+#include "image/box_reduce.h"
 #include "picture/png_file.h"
 
 namespace kagefude {
@@ -14,17 +15,12 @@ constexpr int64_t longestSide = 320;
 
 Floats reduced(View<const float> plane, int width, int height) {
   Floats small(width, height);
-  const auto edge = [](int i, int of, int smaller) {
-    return static_cast<int>(int64_t{i} * of / smaller);
-  };
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const int left = edge(x, plane.width, width), right = edge(x + 1, plane.width, width);
-      const int top = edge(y, plane.height, height), bottom = edge(y + 1, plane.height, height);
-      double sum = 0;
-      for (int v = top; v < bottom; ++v)
-        for (int u = left; u < right; ++u) sum += plane(u, v);
-      small(x, y) = static_cast<float>(sum / (double(right - left) * (bottom - top)));
+      const BoxSpan across = boxSpan(x, plane.width, width),
+                    down = boxSpan(y, plane.height, height);
+      small(x, y) =
+          static_cast<float>(boxSum<double>(across, down, plane) / pixelsIn(across, down));
     }
   return small;
 }

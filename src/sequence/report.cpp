@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/temp_file.h"
+#include "image/box_reduce.h"
 #include "sequence/report_page.h"
 
 namespace kagefude {
@@ -29,16 +30,14 @@ Thumbnail reduced(const Thumbnail& picture) {
   small.rgb.resize(size_t{3} * small.width * small.height);
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x) {
-      const int x0 = x * picture.width / small.width;
-      const int x1 = std::max(x0 + 1, (x + 1) * picture.width / small.width);
-      const int y0 = y * picture.height / small.height;
-      const int y1 = std::max(y0 + 1, (y + 1) * picture.height / small.height);
+      const BoxSpan across = boxSpan(x, picture.width, small.width);
+      const BoxSpan down = boxSpan(y, picture.height, small.height);
       for (int c = 0; c < 3; ++c) {
-        int sum = 0;
-        for (int v = y0; v < y1; ++v)
-          for (int u = x0; u < x1; ++u) sum += picture.rgb[3 * (size_t(v) * picture.width + u) + c];
+        const int sum = boxSum<int>(across, down, [&](int u, int v) {
+          return picture.rgb[3 * (size_t(v) * picture.width + u) + c];
+        });
         small.rgb[3 * (size_t(y) * small.width + x) + c] =
-            static_cast<uint8_t>(sum / ((x1 - x0) * (y1 - y0)));
+            static_cast<uint8_t>(sum / pixelsIn(across, down));
       }
     }
   return small;

@@ -30,6 +30,21 @@ class Arguments(unittest.TestCase):
             with self.subTest(words), self.assertRaises(errors.UsageError):
                 arguments.parse_masks(words)
 
+    def test_traced_shadows_take_the_place_of_masks(self):
+        masks = arguments.parse_masks("trace:64")
+        self.assertEqual((masks.kind, masks.count), ("trace", 64))
+        for words in ("trace", "trace:0", "trace:65537", "trace:-1", "trace:1.5"):
+            with self.subTest(words), self.assertRaises(errors.UsageError):
+                arguments.parse_masks(words)
+
+    def test_ways_to_render_masks(self):
+        self.assertEqual(arguments.parse_arguments(["--output", "a.exr"]).masks_by, "auto")
+        for by in ("auto", "layers", "groups", "occlusion", "raycast"):
+            words = ["--output", "a.exr", "--masks-by", by]
+            self.assertEqual(arguments.parse_arguments(words).masks_by, by)
+        with self.assertRaisesRegex(errors.UsageError, "did you mean 'layers'"):
+            arguments.parse_backend("layer")
+
     def test_wrong_values_are_refused(self):
         for words in ("", "--output", "--output a.exr --masks disc:6", "--output a.exr --masks disc",
                       "--output a.exr --masks line:1", "--output a.exr --masks line:65",

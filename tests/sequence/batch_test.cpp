@@ -163,6 +163,27 @@ TEST_F(Batch, AFrameLargerThanTheBoundFailsWithThatReason) {
       << result.failures[0].message;
 }
 
+TEST_F(Batch, AFrameIsEstimatedOnceAndWhileThoseBeforeItRun) {
+  std::atomic<bool> read0{false}, met{false};
+  std::map<size_t, int> estimates;
+  stages.memory = [&](size_t index) {
+    ++estimates[index];
+    for (int i = 0; index == 1 && i < 20000 && !read0; ++i)
+      std::this_thread::sleep_for(milliseconds(1));
+    if (index == 1) met = read0.load();
+    return size_t{1};
+  };
+  stages.read = [&](size_t index) {
+    if (index == 0) read0 = true;
+    return static_cast<int>(index);
+  };
+  stages.write = [](size_t, int) {};
+  const BatchResult result = run(8, 2);
+  EXPECT_EQ(result.done, 8u);
+  EXPECT_TRUE(met) << "the lock was held while a frame was estimated";
+  for (const auto& [index, times] : estimates) EXPECT_EQ(times, 1) << index;
+}
+
 TEST_F(Batch, AnEstimateThatThrowsLeavesTheWordToTheReader) {
   stages.memory = [](size_t index) -> size_t {
     if (index == 1) throw InputError("no header");

@@ -1,13 +1,19 @@
 #pragma once
 
+#include <string_view>
+
 #include "image/real_math.h"
 #include "image/vec.h"
 
 namespace kagefude {
 
+enum class LightType { point, spot, sun, area };
+/// As the look and the sidecar spell them, in the order of the values.
+inline constexpr std::string_view lightTypeNames[] = {"point", "spot", "sun", "area"};
+
 /// A light as the shading and brush passes see it. World space, world units.
 struct Light {
-  enum class Type { point, spot, sun, area };
+  using Type = LightType;
   Type type = Type::point;
   V3f position{0, 0, 0};    ///< centre of the light; a sun does not use it
   V3f direction{0, 0, -1};  ///< unit, the way the light travels; a point light does not use it
