@@ -21,18 +21,19 @@ class CasterFiles:
         stem = before.rstrip("._-") or "shot"
         self.folder, self.name = folder, f"{stem}.casters"
 
-    def write(self, depsgraph):
-        """Entries for the JSON of every casting object and instance at the evaluated frame."""
+    def write(self, depsgraph, names, fogs=()):
+        """Entries for the JSON of every casting object and instance at the evaluated frame but `fogs`."""
         entries, written = [], {}
         for instance in depsgraph.object_instances:
             item = instance.object
-            if item.type not in MESHED or item.hide_render or not item.visible_shadow:
+            if item.type not in MESHED or item.hide_render or not item.visible_shadow \
+                    or item.original in fogs:
                 continue
             key = item.original.name_full, item.data.as_pointer()
             if key not in written:
                 written[key] = self._write_mesh(item)
             if written[key]:
-                entries.append({"object": item.name, "file": written[key],
+                entries.append({"object": names.of(item), "file": written[key],
                                 "world_from_object": [[float(value) for value in row]
                                                       for row in instance.matrix_world]})
         return sorted(entries, key=lambda entry: (entry["object"], entry["world_from_object"]))

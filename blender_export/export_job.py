@@ -5,8 +5,8 @@ import os
 
 import bpy
 
-from . import camera_view, exr_header, export_scenes, frame_image, mask_materials, shot, sidecar
-from . import survey, whole_shot
+from . import camera_view, exr_header, export_notes, export_scenes, frame_image, mask_materials
+from . import shot, sidecar, survey, unseen, whole_shot
 from .casters import CasterFiles
 from .errors import ExportError
 from .light_depth import LightDepth, plan_view
@@ -22,7 +22,7 @@ class ExportJob:
     def __init__(self, options, say):
         self.options, self.say = options, say
         self.scene = bpy.context.scene
-        self.light_names = UniqueNames([item for item in bpy.data.objects if item.type == 'LIGHT'])
+        self.unique = UniqueNames(bpy.data.objects, bpy.data.materials)
         self.frames = options.frames or [self.scene.frame_current]
         self.names = parse_output(options.output, len(self.frames))
         self._set_up()
@@ -31,34 +31,44 @@ class ExportJob:
         scene, options = self.scene, self.options
         view_layer = shot.active_view_layer(scene)
         objects = shot.rendered_objects(view_layer)
-        lights = shot.lights_asked_for(objects, options.lights)
+        lights = shot.lights_asked_for(objects, options.lights, self.unique)
         subjects = [item for item in objects if item.type not in {'LIGHT', 'CAMERA', 'LIGHT_PROBE'}]
         shot.refuse_instanced_lights(subjects)
         shot.evaluate_as_rendered(objects, view_layer)
         self.objects = objects
         lights = self._survey(lights)
-        self.materials = sorted(bpy.data.materials, key=lambda material: material.name)
+        self.materials = sorted(bpy.data.materials, key=lambda material: material.name_full)
         shot.give_distinct_indices(shot.all_geometry())
         shot.give_distinct_indices(self.materials)
-        notes = export_scenes.prepare_beauty(scene, view_layer, options)
+        notes = export_notes.ignored_settings(scene, view_layer)
+        unseen.hide_indirect(view_layer)
+        self.unpainted = unseen.unpainted_objects(view_layer)
+        notes += export_scenes.prepare_beauty(scene, view_layer, options)
         self.data = export_scenes.DataScene(scene, subjects)
         backends = MaskBackends(options.masks_by, self.data, shot.all_geometry())
         self.rigs = self._rigs(lights, backends)
         self.data.finish()
         self.writer, more = frame_image.shot_writer(scene, view_layer, self.data)
+        notes += backends.notes + more + export_notes.scene_notes(scene, view_layer, options)
         self.depth = LightDepth(self.data, subjects, options.depth_size)
+        self.fogs = [item for item in shot.all_geometry() if mask_materials.is_volume_only(item)]
+        if options.casters:
+            notes += mask_materials.caster_notes(shot.all_geometry())
         notes += mask_materials.keep_what_blocks(
             [layer for made in bpy.data.scenes if made != scene for layer in made.view_layers],
             self.data.material, shot.all_geometry())
+        self.layers = {"data": "data", "beauty": "beauty"}
+        if "beauty.Freestyle" in self.writer.names:
+            self.layers["lines"] = "beauty.Freestyle"
         self.cameras = camera_view.SharpCameras(self.data.uses_rays)
         self.casters = CasterFiles(self.names.folder, self.names.before) if options.casters else None
-        for note in notes + backends.notes + more:
+        for note in notes:
             self.say(f"note: {note}")
 
     def _survey(self, lights):
         """Measures the whole shot; returns the lights that shine in it, or those asked for."""
-        names = {light: self.light_names.of(light) for light in lights}
-        samples = survey.survey(self.scene, self.objects, lights, names)
+        names = {light: self.unique.of(light) for light in lights}
+        samples = survey.survey(self.scene, self.objects, lights, self.unique)
         if not self.options.lights:
             lights = survey.shining_lights(lights, samples, names)
         if not lights:
@@ -69,16 +79,17 @@ class ExportJob:
         self.aims = {light: survey.aim_of_light(self.shot, samples, names[light])
                      for light in lights}
         for light in lights:
-            for note in survey.light_notes(samples, names[light]):
+            for note in survey.light_notes(samples, names[light], self.options.offset):
                 self.say(f"note: {note}")
+        self.sized = {light for light in lights if survey.ever_sized(samples, names[light])}
         self.casting = {light for light in lights if survey.ever_casts(samples, names[light])}
         return lights
 
     def _rigs(self, lights, backends):
-        names = [self.light_names.of(light) for light in lights]
+        names = [self.unique.of(light) for light in lights]
         keys = light_keys(names)
-        return [LightRig(light, name, keys[name], light in self.casting, self.options, self.data,
-                         backends)
+        return [LightRig(light, name, keys[name], light in self.casting, light in self.sized,
+                         self.options, self.data, backends)
                 for light, name in zip(lights, names)]
 
     def run(self):
@@ -96,7 +107,7 @@ class ExportJob:
         shot.go_to_frame(self.scene, self.objects, frame)
         depsgraph = bpy.context.evaluated_depsgraph_get()
         view = camera_view.read_camera(self.scene, depsgraph)
-        entries, things = sidecar.describe_objects(depsgraph)
+        entries, things = sidecar.describe_objects(depsgraph, self.unique, self.unpainted)
         placed = [rig.place(depsgraph, self.aims[rig.light], self.shot.subject.radius)
                   for rig in self.rigs]
         mapped = [(rig, entry, self._light_view(frame, state, depsgraph, view, things))
@@ -116,7 +127,8 @@ class ExportJob:
             yield
         document = self._document(frame, view, [entry for _, entry in placed], entries)
         if self.casters:
-            document["casters"] = self.casters.write(bpy.context.evaluated_depsgraph_get())
+            document["casters"] = self.casters.write(bpy.context.evaluated_depsgraph_get(),
+                                                       self.unique, self.fogs)
         sidecar.check(document)
         parts.append(self._write_sidecar(frame, document))
         for part, path in parts:
@@ -135,9 +147,9 @@ class ExportJob:
             "kagefude": sidecar.VERSION, "frame": frame, "fps": render.fps / render.fps_base,
             "image": self.names.image(frame), "resolution": list(export_scenes.resolution(self.scene)),
             "pixel_aspect": render.pixel_aspect_x / render.pixel_aspect_y,
-            "scale": self.options.scale, "shot": self.shot_entry, "layers": {"data": "data", "beauty": "beauty"},
+            "scale": self.options.scale, "shot": self.shot_entry, "layers": self.layers,
             "camera": sidecar.describe_camera(view), "lights": lights, "objects": objects,
-            "materials": sidecar.describe_materials(self.materials)}
+            "materials": sidecar.describe_materials(self.materials, self.unique)}
 
     def _write_sidecar(self, frame, document):
         name = self.names.sidecar(frame)

@@ -35,6 +35,9 @@ def prepare_beauty(scene, view_layer, options):
         notes.append(f"the beauty is rendered with Cycles instead of {scene.render.engine}, which "
                      f"needs a display")
         scene.render.engine = 'CYCLES'
+    if scene.render.use_freestyle and hasattr(view_layer.freestyle_settings, "as_render_pass"):
+        # Drawn into the picture, lines would be painted over.
+        view_layer.freestyle_settings.as_render_pass = True
     if scene.cycles.use_denoising and not compat.has_denoiser():
         notes.append("the beauty is not denoised: this Blender is built without a denoiser")
         scene.cycles.use_denoising = False

@@ -1,10 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The masks' offset worked out from the physical light (`--offset auto`)."""
 
-from .errors import ExportError
+import math
+
+# The masks stand apart even in a frame in which the light has shrunk to a point.
+LEAST_SHARE = 1e-5
 
 
-def auto_offset(kind, name, radius, half_length, distance, subject_radius):
+def area_offsets(radius, shape, half_u, half_v):
+    """Half axes of the ellipse on which a disc's masks lie: the light's own, or of a rectangle's area.
+
+    A rectangle's differs from it by at most a few hundredths of visibility.
+    """
+    least = LEAST_SHARE * max(radius, half_u, LEAST_SHARE)
+    if half_u == half_v:
+        return max(radius, least), max(radius, least)
+    grown = 1.0 if shape == "ellipse" else 2.0 / math.sqrt(math.pi)
+    return max(grown * half_u, least), max(grown * half_v, least)
+
+
+def auto_offset(kind, radius, half_length, distance, subject_radius):
     """Offset of the outermost masks for a light of `radius` (world units; a sun's is a tangent).
 
     Line: the light's own half length; disc: its own radius. Pair: a blocker edge at lateral
@@ -12,16 +27,13 @@ def auto_offset(kind, name, radius, half_length, distance, subject_radius):
     subject's radius and d the distance to its centre: right at the subject's rim, too narrow
     inside it, but nowhere so wide that the two shadows part, which is the worse fault. Both masks
     must stay outside the subject, so l is at most half the way to its bounding sphere, and at
-    most a quarter of the distance where the light is inside it. ExportError where the light has
-    no size.
+    most a quarter of the distance where the light is inside it.
     """
     size = half_length if kind == "line" else radius
-    if size <= 0.0:
-        raise ExportError(f"light '{name}' has no size to take the masks' offset from; give it a "
-                          f"radius or state the offset, as in --offset 0.2")
+    least = LEAST_SHARE * max(distance, LEAST_SHARE)
     if kind != "pair":
-        return size
+        return max(size, least)
     edge = max(subject_radius, 1e-6 * distance)
     room = distance - subject_radius
     most = max(0.5 * room, 0.25 * distance if room <= 0.0 else 0.05 * distance)
-    return min(radius * distance / edge, most)
+    return max(min(radius * distance / edge, most), least)

@@ -2,6 +2,7 @@
 """One exported light: its mask and truth layers in the data scene, moved into place per frame."""
 
 from . import light_offset, mask_positions, vectors
+from .arguments import Arrangement
 from .errors import ExportError
 from .light_state import (area_extents, new_truth_lamp, place_truth_lamp, read_light,
                           travel_direction)
@@ -10,17 +11,22 @@ from .subject import Sphere
 
 
 class LightRig:
-    def __init__(self, light, name, key, masked, options, data, backends):
-        """`name` is the light's own in the JSON; a light that is not `masked` casts no shadow."""
+    def __init__(self, light, name, key, masked, sized, options, data, backends):
+        """`name` is the light's own in the JSON; a light that is not `masked` casts no shadow.
+
+        One that is never `sized` gets its one hard mask, unless an offset is asked for.
+        """
         self.light, self.name, self.key, self.masked, self.options = light, name, key, masked, options
+        hard = not sized and not options.offset and options.masks.kind != "trace"
+        self.arrangement = Arrangement("hard", 1) if hard else options.masks
         self.masks, self.truth_lamps = None, []
         if not masked:
             return
         self._refuse_what_cannot_work()
-        if options.masks.kind == "trace":
-            self._trace(data, traced_layer(key), options.masks.count)
+        if self.arrangement.kind == "trace":
+            self._trace(data, traced_layer(key), self.arrangement.count)
         else:
-            self.masks = backends.masks_of(light, key, options.masks.count)
+            self.masks = backends.masks_of(light, key, self.arrangement.count)
         if options.truth_samples:
             self._trace(data, truth_layer(key), options.truth_samples)
 
@@ -41,7 +47,7 @@ class LightRig:
         for lamp in self.truth_lamps:
             place_truth_lamp(lamp, state, evaluated)
         entry = self._describe(state, travel, subject, evaluated)
-        places = mask_positions.places_on_light(self.options.masks, travel, state.surface_axes)
+        places = mask_positions.places_on_light(self.arrangement, travel, state.surface_axes)
         entry["axes"] = {"u": list(places.u_axis), "v": list(places.v_axis)}
         if self.masks:
             self._place_masks(state, travel, places, subject, entry)
@@ -71,9 +77,9 @@ class LightRig:
         return entry
 
     def _place_masks(self, state, travel, places, subject, entry):
-        masks = self.options.masks
-        offset = self.options.offset or self._auto_offset(state, subject)
-        samples = []
+        masks = self.arrangement
+        offset, offset_v = self._offsets(state, subject, entry)
+        samples, stretch = [], offset_v / offset
         for number, (layer, place) in enumerate(zip(self.masks.names, places.places)):
             sample = {"layer": layer, "uv": list(place)}
             direction = None
@@ -81,20 +87,29 @@ class LightRig:
                 direction = mask_positions.mask_direction(travel, places, place, offset)
                 sample["direction"] = list(direction)
             else:
-                position = mask_positions.mask_position(state.position, places, place, offset)
+                position = mask_positions.mask_position(
+                    state.position, places, (place[0], place[1] * stretch), offset)
                 sample["position"] = list(position)
             self.masks.place(number, state, sample.get("position", entry["position"]), direction)
             samples.append(sample)
         entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples,
                           "by": self.masks.by}
+        if offset_v != offset:
+            entry["masks"]["offset_v"] = offset_v
 
-    def _auto_offset(self, state, subject):
+    def _offsets(self, state, subject, entry):
+        """The masks' offsets along u and v."""
+        if self.options.offset:
+            return self.options.offset, self.options.offset
+        if self.arrangement.kind == "disc" and "area" in entry:
+            return light_offset.area_offsets(state.radius, **entry["area"])
         distance = vectors.length(vectors.subtract(state.position, subject.center))
-        return light_offset.auto_offset(self.options.masks.kind, state.name, state.radius,
-                                        state.half_length, distance, subject.radius)
+        offset = light_offset.auto_offset(self.arrangement.kind, state.radius, state.half_length,
+                                          distance, subject.radius)
+        return offset, offset
 
     def _refuse_what_cannot_work(self):
-        if self.options.masks.kind == "pair" and self.light.data.type == 'SUN':
+        if self.arrangement.kind == "pair" and self.light.data.type == 'SUN':
             raise ExportError(f"light '{self.light.name}' is a sun, whose shadows do not change "
                               f"along its axis, so a pair of masks would be twice the same; use "
                               f"--masks line:5 or --masks disc:5")

@@ -8,8 +8,6 @@ out, displacement stays, volumes go. Cycles folds the switch away, so that layer
 render as before, bit for bit.
 """
 
-import bpy
-
 from . import compat
 
 SWITCH = "kagefude_mask"     # custom property of a view layer, and the attribute that reads it
@@ -39,6 +37,14 @@ def is_volume_only(item):
     materials = [slot.material for slot in item.material_slots]
     return bool(materials) and all(material and _has_volume_alone(material)
                                    for material in materials)
+
+
+def caster_notes(objects):
+    """What the casters' triangles do not say, one line a kind."""
+    cut = sorted(item.name for item in objects if not is_volume_only(item) and any(
+        slot.material and blocks_otherwise(slot.material) for slot in item.material_slots))
+    return [f"casters are the meshes without the holes, fog and displacement of their materials: "
+            f"{', '.join(cut)}"] if cut else []
 
 
 def keep_what_blocks(view_layers, override, objects):

@@ -40,8 +40,8 @@ def _of_object(by, item):
     if any(system.settings.type == 'HAIR' and system.settings.render_type == 'PATH'
            for system in item.particle_systems):
         return "has hair"
-    if by == "raycast" and not item.visible_shadow and not compat.can_hide_from_raycast():
-        return "casts no shadow, which the Raycast node learns in Blender 5.2"
+    if by != "groups" and not item.visible_shadow:
+        return "casts no shadow, which rays of a shader node cannot tell to the pixel"
     for slot in item.material_slots:
         if slot.material and mask_materials.blocks_otherwise(slot.material):
             return f"has the material '{slot.material.name}', which has holes, displacement or fog"

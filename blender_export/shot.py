@@ -70,9 +70,9 @@ def _open_eyes(layer_collection):
         _open_eyes(child)
 
 
-def lights_asked_for(objects, names):
+def lights_asked_for(objects, names, unique):
     """The named lights, or all that there are; ExportError names what there is."""
-    lights = {item.name: item for item in objects if item.type == 'LIGHT'}
+    lights = {unique.of(item): item for item in objects if item.type == 'LIGHT'}
     for name in names:
         if name not in lights:
             known = ", ".join(sorted(lights)) or "none"

@@ -25,36 +25,39 @@ def numbers(vector):
     return [float(value) for value in vector]
 
 
-def describe_objects(depsgraph):
+def describe_objects(depsgraph, names, unpainted=()):
     """(JSON entries, things for the subject) of every object with geometry at the evaluated frame.
 
-    An object that is only there as instances is described by its first instance.
+    Those of `unpainted` are marked. An object that is only there as instances is described by its first instance.
     """
     entries, things = {}, []
     for instance in depsgraph.object_instances:
         item = instance.object
-        if item.type not in GEOMETRY or item.name in entries or item.hide_render \
+        name = names.of(item)
+        if item.type not in GEOMETRY or name in entries or item.hide_render \
                 or (item.type == 'MESH' and not item.data.polygons):
             continue
         matrix = instance.matrix_world.copy()
         low, high = (tuple(pick(corner[axis] for corner in item.bound_box) for axis in range(3))
                      for pick in (min, max))
-        entry = _object_entry(item, matrix, low, high)
-        entries[item.name] = entry
-        things.append(Thing(item.name, [tuple(matrix @ Vector(corner)) for corner in item.bound_box],
+        entry = _object_entry(item, names, matrix, low, high)
+        if item.original in unpainted:
+            entry["painted"] = False
+        entries[name] = entry
+        things.append(Thing(name, [tuple(matrix @ Vector(corner)) for corner in item.bound_box],
                             entry["flat"]))
     return [entries[name] for name in sorted(entries)], things
 
 
-def _object_entry(item, matrix, low, high):
+def _object_entry(item, names, matrix, low, high):
     middle = (Vector(low) + Vector(high)) * 0.5
     marks = _reference_marks(item)
     return {
-        "name": item.name, "index": item.pass_index, "crypto": cryptomatte_hex(item.name),
+        "name": names.of(item), "index": item.pass_index, "crypto": cryptomatte_hex(item.name),
         "world_from_object": rows(matrix), "bounds": {"min": numbers(low), "max": numbers(high)},
         "reference_point": marks[0] if marks else numbers(matrix @ middle),
         "reference_points": marks,
-        "materials": [slot.material.name for slot in item.material_slots if slot.material],
+        "materials": [names.of(slot.material) for slot in item.material_slots if slot.material],
         "flat": is_flat(low, high)}
 
 
@@ -66,8 +69,8 @@ def _reference_marks(item):
             for child in sorted(marks, key=lambda child: child.name)]
 
 
-def describe_materials(materials):
-    return [{"name": material.name, "index": material.pass_index,
+def describe_materials(materials, names):
+    return [{"name": names.of(material), "index": material.pass_index,
              "crypto": cryptomatte_hex(material.name)} for material in materials]
 
 

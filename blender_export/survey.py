@@ -11,13 +11,13 @@ from .sidecar import describe_objects
 from .subject import subject_things
 
 
-def survey(scene, objects, lights, names):
+def survey(scene, objects, lights, unique):
     """Samples of the whole shot; leaves the scene at the frame that it was at."""
     frame = scene.frame_current, scene.frame_subframe
     samples = []
     for sampled in whole_shot.sampled_frames(scene.frame_start, scene.frame_end):
         shot.go_to_frame(scene, objects, sampled)
-        samples.append(_sample(scene, bpy.context.evaluated_depsgraph_get(), lights, names))
+        samples.append(_sample(scene, bpy.context.evaluated_depsgraph_get(), lights, unique))
     shot.go_to_frame(scene, objects, *frame)
     return samples
 
@@ -37,7 +37,11 @@ def ever_casts(samples, name):
     return any(sample.lights[name].casts for sample in samples)
 
 
-def light_notes(samples, name):
+def ever_sized(samples, name):
+    return any(sample.lights[name].sized for sample in samples)
+
+
+def light_notes(samples, name, offset):
     """What is to be said of a light once."""
     node = next((sample.lights[name].unknown_node for sample in samples
                  if sample.lights[name].unknown_node), None)
@@ -46,6 +50,8 @@ def light_notes(samples, name):
                f"1 in the light's energy and color")
     if not ever_casts(samples, name):
         yield f"light '{name}' casts no shadow, so it has no masks and only shades"
+    elif not ever_sized(samples, name) and not offset:
+        yield f"light '{name}' has no size, so it gets one hard mask; give it a radius for soft shadows"
 
 
 def aim_of_light(measured, samples, name):
@@ -55,27 +61,30 @@ def aim_of_light(measured, samples, name):
 
 def describe_shot(measured, samples, lights, names):
     """The `shot` of the JSON, the same in every frame."""
-    def heard(light):
-        return [sample.lights[names[light]].irradiance_at(center)
-                for sample, center in zip(samples, measured.centers)]
+    def describe(light):
+        states = [sample.lights[names[light]] for sample in samples]
+        given = [state.irradiance_at(center) for state, center in zip(states, measured.centers)]
+        return {"name": names[light], "irradiance": sum(given) / len(given),
+                "largest_irradiance": max(given),
+                "largest_power": max(state.power for state in states),
+                "largest_on_axis": max(state.on_axis_at(center)
+                                       for state, center in zip(states, measured.centers))}
     return {
         "first": measured.first, "last": measured.last,
         "subject": {"center": list(measured.subject.center), "radius": measured.subject.radius},
         "distance": measured.distance,
-        "lights": [{"name": names[light], "irradiance": sum(values) / len(values),
-                    "largest_irradiance": max(values)}
-                   for light, values in ((light, heard(light)) for light in lights)]}
+        "lights": [describe(light) for light in lights]}
 
 
-def _sample(scene, depsgraph, lights, names):
+def _sample(scene, depsgraph, lights, unique):
     view = read_camera(scene, depsgraph)
-    _, things = describe_objects(depsgraph)
+    _, things = describe_objects(depsgraph, unique)
     seen = {thing.name for thing in subject_things(things, view.clip_from_world)}
     forward = tuple(-view.world_from_camera[row][2] for row in range(3))
     return whole_shot.FrameSample(
         {thing.name: thing for thing in things}, seen,
         tuple(view.world_from_camera.translation), vectors.normalize(forward),
-        {names[light]: _light_sample(light.evaluated_get(depsgraph)) for light in lights})
+        {unique.of(light): _light_sample(light.evaluated_get(depsgraph)) for light in lights})
 
 
 def _light_sample(evaluated):
@@ -84,5 +93,11 @@ def _light_sample(evaluated):
 
     def irradiance_at(point):
         return irradiance(state.kind, power, state.position, state.direction, state.cone, point)
+
+    def on_axis_at(point):
+        way = vectors.subtract(point, state.position)
+        axis = vectors.normalize(way, state.direction)
+        return irradiance(state.kind, power, state.position, axis, None, point)
     return whole_shot.LightSample(state.position, power > 0.0, state.casts_shadow,
-                                  state.unknown_node, irradiance_at)
+                                  state.unknown_node, power, irradiance_at, on_axis_at,
+                                  max(state.radius, state.half_length) > 0.0)

@@ -24,7 +24,10 @@ class LightSample:
     shines: bool
     casts: bool
     unknown_node: str         # a node of the light that could not be followed, or None
+    power: float              # luminance of its energy times its colour
     irradiance_at: object     # function of a world point: luminance that arrives there
+    on_axis_at: object        # the same, were the point on the light's axis
+    sized: bool = True        # False where it is a point
 
 
 @dataclass

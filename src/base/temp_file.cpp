@@ -3,7 +3,9 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +17,8 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/files_read.h"
+#include "base/folders.h"
 
 namespace kagefude {
 namespace {
@@ -31,6 +35,7 @@ constexpr auto kAbandonedAfter = std::chrono::minutes(15);
 struct LiveFiles {
   std::mutex mutex;
   std::set<fs::path> paths;
+  std::set<fs::path> cleaned;  ///< folders that were looked through for leftovers
   unsigned long created = 0;
   bool closed = false;
 };
@@ -79,28 +84,64 @@ void flushToDisk(const fs::path& path, const fs::path& target) {
     throw OutputError(fmt::format("cannot write {}: {}", target.string(), reason(failed)));
 }
 
-/// A new name is on the disk only when its folder is. Some file systems cannot flush one; the file
-/// itself is safe by then, so that is no error.
-void flushFolder(const fs::path& folder) {
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  fsync(descriptor);
-  close(descriptor);
-}
-
 bool processIsGone(long pid) { return kill(static_cast<pid_t>(pid), 0) != 0 && errno == ESRCH; }
 
-bool isAbandoned(const fs::path& path, const TempName& name) {
-  if (name.host == hostToken()) {
-    if (name.pid == getpid()) {
-      std::lock_guard lock(liveFiles().mutex);
-      return !liveFiles().paths.contains(path);
-    }
-    if (processIsGone(name.pid)) return true;
-  }
+enum class Lock { free, held, unknown };
+
+/// Takes the lock that a temporary's writer holds for as long as it lives.
+Lock takeLock(int file) {
+  if (flock(file, LOCK_EX | LOCK_NB) == 0) return Lock::free;
+  return errno == EWOULDBLOCK ? Lock::held : Lock::unknown;
+}
+
+/// Whether locks taken on another machine, or in another container, are seen here. Network file
+/// systems that hand them to the server do that; of the others each machine sees its own.
+bool locksReachOthers(int file) {
+  struct statfs system {};
+  if (fstatfs(file, &system) != 0) return false;
+  constexpr unsigned long ownOnly[] = {0xFF534D42, 0xFE534D42, 0x517B,    0x65735546,
+                                       0x0BD00BD0, 0x47504653, 0x01021997};
+  const auto type = static_cast<unsigned long>(system.f_type) & 0xFFFFFFFF;
+  return std::find(std::begin(ownOnly), std::end(ownOnly), type) == std::end(ownOnly);
+}
+
+bool isOld(const fs::path& path) {
   std::error_code failed;
   const auto touched = fs::last_write_time(path, failed);
   return !failed && fs::file_time_type::clock::now() - touched > kAbandonedAfter;
+}
+
+/// Whether nobody will finish the temporary that `file` is open on. Age is no proof of that: a
+/// suspended task may wake up. A writer holds a lock on its file until it ends, however it ends.
+bool isAbandoned(int file, const fs::path& path, const TempName& name) {
+  const bool ownHost = name.host == hostToken();
+  if (ownHost && name.pid == getpid()) {
+    std::lock_guard lock(liveFiles().mutex);
+    return !liveFiles().paths.contains(path);
+  }
+  switch (takeLock(file)) {
+    case Lock::held:
+      return false;
+    case Lock::free:
+      return ownHost || (locksReachOthers(file) && isOld(path));
+    case Lock::unknown:
+      break;
+  }
+  return ownHost && processIsGone(name.pid);
+}
+
+/// A name in a folder where frames are made: never that of a device or of an open file, which
+/// the rename would replace (`/dev/stdout` is a link).
+void refuseSystemFolders(const fs::path& target, const fs::path& folder) {
+  const std::string place = folder.string();
+  if (place == "/dev" || place.starts_with("/proc/") || place == "/proc")
+    throw OutputError(fmt::format("cannot write {}: it is not a regular file", target.string()));
+}
+
+/// Whether nothing was finished in this folder before: then it is looked through for leftovers.
+bool firstIn(const fs::path& folder) {
+  std::lock_guard lock(liveFiles().mutex);
+  return liveFiles().cleaned.insert(folder).second;
 }
 
 void writeAll(const fs::path& path, std::string_view contents, const fs::path& target) {
@@ -122,6 +163,7 @@ void writeAll(const fs::path& path, std::string_view contents, const fs::path& t
 }  // namespace
 
 TempFile::TempFile(fs::path target) : target_(std::move(target)) {
+  refuseToOverwriteRead(target_);
   std::error_code ignored;
   const fs::file_status status = fs::status(target_, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status))
@@ -136,17 +178,24 @@ TempFile::TempFile(fs::path target) : target_(std::move(target)) {
   std::error_code missing;
   fs::path folder = fs::canonical(folderOf(target_), missing);
   if (missing) folder = folderOf(target_);
-  int file = -1;
+  refuseSystemFolders(target_, folder);
   int error = EEXIST;
-  while (file < 0 && error == EEXIST) {
+  while (lock_ < 0 && error == EEXIST) {
     path_ = folder / tempName(target_.filename().string(), live.created++);
-    file = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    lock_ = open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     error = errno;
+    if (lock_ < 0) continue;
+    // Whoever looked for leftovers before the lock was there has taken the file away, or will.
+    struct stat status {};
+    if (takeLock(lock_) != Lock::held && fstat(lock_, &status) == 0 && status.st_nlink > 0) break;
+    unlink(path_.c_str());
+    close(lock_);
+    lock_ = -1;
+    error = EEXIST;
   }
-  if (file < 0)
+  if (lock_ < 0)
     throw OutputError(fmt::format("cannot write {}: folder {}: {}", target_.string(),
                                   folderOf(target_).string(), reason(error)));
-  close(file);
   live.paths.insert(path_);
   live_ = true;
 }
@@ -157,19 +206,27 @@ TempFile::~TempFile() {
   std::lock_guard lock(live.mutex);
   unlink(path_.c_str());
   live.paths.erase(path_);
+  close(lock_);
 }
 
 void TempFile::commit() {
   flushToDisk(path_, target_);
+  rename();
+  const fs::path folder = folderOf(target_);
+  flushFolder(folder);
+  if (firstIn(path_.parent_path())) removeLeftovers(folder);
+}
+
+void TempFile::rename() {
   LiveFiles& live = liveFiles();
   std::lock_guard lock(live.mutex);
   if (live.closed)
     throw OutputError(fmt::format("did not write {}: interrupted", target_.string()));
-  if (rename(path_.c_str(), target_.c_str()) != 0)
+  if (std::rename(path_.c_str(), target_.c_str()) != 0)
     throw OutputError(fmt::format("cannot write {}: {}", target_.string(), reason(errno)));
   live.paths.erase(path_);
   live_ = false;
-  flushFolder(folderOf(target_));
+  close(lock_);
 }
 
 void writeFileAtomically(const fs::path& target, std::string_view contents) {
@@ -208,8 +265,13 @@ std::vector<fs::path> removeLeftovers(const fs::path& folder) {
   for (fs::directory_iterator entry(place, failed), end; !failed && entry != end;
        entry.increment(failed)) {
     const auto name = parseTempName(entry->path().filename().string());
-    if (!name || !isAbandoned(entry->path(), *name)) continue;
-    if (unlink(entry->path().c_str()) == 0) removed.push_back(entry->path());
+    if (!name) continue;
+    const int file = open(entry->path().c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) continue;
+    // Removed before the lock that proves its end is given back.
+    if (isAbandoned(file, entry->path(), *name) && unlink(entry->path().c_str()) == 0)
+      removed.push_back(entry->path());
+    close(file);
   }
   std::sort(removed.begin(), removed.end());
   return removed;

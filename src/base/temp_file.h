@@ -26,7 +26,9 @@ namespace kagefude {
 class TempFile {
  public:
   /// Creates the empty temporary. OutputError when the folder is missing or read-only, when the
-  /// target is something else than a regular file, or after removeLiveTempFiles().
+  /// target is something else than a regular file (a folder, a device, an open descriptor's link),
+  /// or after removeLiveTempFiles(). UsageError when the target is a file that was read, see
+  /// files_read.h.
   explicit TempFile(std::filesystem::path target);
   ~TempFile();
   TempFile(const TempFile&) = delete;
@@ -37,12 +39,15 @@ class TempFile {
 
   /// Flushes the file's contents to the disk and renames it to the target, replacing an older one.
   /// OutputError (full disk, folder gone) leaves the older one as it was. Call it once, after every
-  /// handle on the file is closed.
+  /// handle on the file is closed. The first one in a folder also removes the leftovers there.
   void commit();
 
  private:
+  void rename();
+
   std::filesystem::path target_;
   std::filesystem::path path_;
+  int lock_ = -1;  ///< open and locked while the file is written: the proof that its writer lives
   bool live_ = false;
 };
 
@@ -59,11 +64,12 @@ struct TempName {
 /// The parts of a temporary's file name, or nothing when it is not one of ours.
 std::optional<TempName> parseTempName(std::string_view fileName);
 
-/// Removes the temporaries in `folder` that no living run owns: those of this host whose process is
-/// gone, and any that were not touched for a quarter of an hour (a frame is written in seconds;
-/// this also covers other hosts and process ids used anew). Returns the removed paths, sorted. A
-/// missing folder has none; files that cannot be removed are left. Taking away the file of a run
-/// that was only asleep makes its commit() fail: never a partial output.
+/// Removes the temporaries in `folder` that no living run owns. A writer holds a lock on its file,
+/// which ends with it however it ends, so a run that is only suspended keeps its files, and so it
+/// does when a clock is off. What other hosts have left goes too, where locks reach from host to
+/// host, once it was not touched for a quarter of an hour; elsewhere it waits for a run on its own
+/// host. Returns the removed paths, sorted. A missing folder has none; files that cannot be removed
+/// are left.
 std::vector<std::filesystem::path> removeLeftovers(const std::filesystem::path& folder);
 
 /// Removes every live temporary of this process and refuses new ones and commits from then on. For

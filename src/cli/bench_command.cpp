@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "base/error.h"
+#include "base/output_name.h"
 #include "cli/commands.h"
 #include "frame/sample_frame.h"
 #include "sequence/bench_frame.h"
@@ -110,6 +111,7 @@ void bench(const BenchOptions& options, Console& console) {
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                             static_cast<size_t>(threads));
   if (!options.save.empty()) {
+    requireSuffix(options.save, ".exr", "--save");
     writeSampleFrame(options.save, size.width, size.height);
     return;
   }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <ostream>
 
+#include "base/output_name.h"
 #include "base/temp_file.h"
 #include "cli/commands.h"
 #include "sequence/check_sequence.h"
@@ -39,6 +40,8 @@ void print(std::ostream& out, const CheckResult& r) {
 }
 
 void check(const CheckOptions& options, Console& console) {
+  if (!options.plot.empty()) requireSuffix(options.plot, ".png", "--plot");
+  if (!options.jsonFile.empty()) requireSuffix(options.jsonFile, ".json", "--write-json");
   CheckRequest request;
   request.comped = FramePattern(options.comped);
   request.aovs = FramePattern(options.aovs.empty() ? options.comped : options.aovs);
@@ -50,7 +53,7 @@ void check(const CheckOptions& options, Console& console) {
   if (!options.plot.empty()) plotCheck(result, options.plot);
   if (!options.jsonFile.empty()) writeFileAtomically(options.jsonFile, checkJson(result) + "\n");
   if (options.json)
-    console.out << checkJson(result) << "\n";
+    console.results(checkJson(result));
   else
     print(console.out, result);
 }

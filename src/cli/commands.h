@@ -2,6 +2,7 @@
 
 #include <iosfwd>
 #include <string>
+#include <string_view>
 
 namespace CLI {
 class App;
@@ -9,8 +10,13 @@ class App;
 
 namespace kagefude {
 
-/// Where commands print: results go to `out`, progress, warnings and errors to `err`.
+/// Where commands print: results go to `out`, progress, warnings and errors to `err`. Whatever may
+/// hold a name from a file goes through these three, which let no control character out.
 struct Console {
+  void result(std::string_view line);    ///< one line to `out`
+  void results(std::string_view lines);  ///< several, such as JSON; ends the last one
+  void message(std::string_view line);   ///< one line to `err`, flushed
+
   std::ostream& out;
   std::ostream& err;
   bool terminal = false;  ///< whether `err` is a terminal that can redraw a line

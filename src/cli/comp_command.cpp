@@ -9,7 +9,10 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <set>
 
+#include "base/error.h"
+#include "base/output_name.h"
 #include "cli/commands.h"
 #include "sequence/comp_batch.h"
 #include "sequence/frame_range.h"
@@ -43,6 +46,7 @@ std::string previewPattern(const CompOptions& options) {
 }
 
 CompRequest requestFrom(const CompOptions& options, std::stop_token stop) {
+  requireSuffix(options.output, ".exr", "--output");
   CompRequest request;
   request.plan.inputs = {FramePattern(options.input)};
   request.plan.outputs = {FramePattern(options.output)};
@@ -66,20 +70,32 @@ std::string summaryOf(const BatchResult& result) {
   std::string text = fmt::format("{} {} done", result.done, result.done == 1 ? "frame" : "frames");
   if (result.kept) text += fmt::format(", {} kept", result.kept);
   if (!result.failures.empty()) text += fmt::format(", {} failed", result.failures.size());
+  if (!result.lost.empty()) text += fmt::format(", {} lost", result.lost.size());
   if (result.untouched) text += fmt::format(", {} not made", result.untouched);
   return text;
+}
+
+/// One sentence on frames that were made and are gone.
+std::string lostFrames(const std::vector<size_t>& lost, const std::vector<FrameJob>& jobs) {
+  std::vector<int> frames;
+  for (const size_t index : lost) frames.push_back(jobs[index].frame);
+  return fmt::format(
+      "frames {} were finished, but are not on the disk any more (the first is {}): "
+      "make them again",
+      describeFrames(frames), jobs[lost.front()].outputs.front().string());
 }
 
 /// Without --skip-bad-frames the first failure is what ended the run; a neighbour that was in
 /// flight and failed as well adds nothing.
 int finish(const BatchResult& result, const std::vector<FrameJob>& jobs, bool skipBadFrames,
            const Interrupts& interrupts, ProgressSink& progress, Console& console) {
-  const bool failed = !result.failures.empty() || result.stopped;
+  const bool failed = !result.failures.empty() || !result.lost.empty() || result.stopped;
   progress.end(summaryOf(result), failed);
   for (const FrameFailure& failure : result.failures) {
-    console.err << "ERROR: " << jobs[failure.index].name() << ": " << failure.message << std::endl;
+    console.message(fmt::format("ERROR: {}: {}", jobs[failure.index].name(), failure.message));
     if (!skipBadFrames) break;
   }
+  if (!result.lost.empty()) console.message("ERROR: " + lostFrames(result.lost, jobs));
   if (result.stopped) return interrupts.exitCode();
   return failed ? someFailed : allGood;
 }
@@ -105,24 +121,68 @@ class RunReport {
   }
 
   void add(const CompEvent& event) {
-    if (!report_) return;
     const FrameEvent& frame = event.frame;
-    report_->add(
-        {event.job->frame, event.job->view, frame.outcome == FrameOutcome::kept, frame.readSeconds,
-         frame.computeSeconds, frame.writeSeconds, event.warnings, frame.message},
-        event.thumbnail);
-    if (Clock::now() - written_ > std::chrono::seconds(10)) finish();
+    attempt([&] {
+      report_->add({event.job->frame, event.job->view, frame.outcome == FrameOutcome::kept,
+                    frame.readSeconds, frame.computeSeconds, frame.writeSeconds, event.warnings,
+                    frame.message},
+                   event.thumbnail);
+      if (Clock::now() - written_ > std::chrono::seconds(10)) write();
+    });
+  }
+
+  /// Marks a frame that was finished and is gone.
+  void addLost(const FrameJob& job) {
+    attempt([&] {
+      report_->add({job.frame, job.view, false, 0, 0, 0, {}, "its output is gone"}, {});
+    });
   }
 
   void finish() {
-    if (report_) report_->finish();
-    written_ = Clock::now();
+    attempt([&] { write(); });
   }
+
+  /// Why the page is not whole; the frames go on without it.
+  const std::string& trouble() const { return trouble_; }
 
  private:
   using Clock = std::chrono::steady_clock;
+  template <class Step>
+  void attempt(const Step& step) {
+    if (!report_) return;
+    try {
+      step();
+    } catch (const Error& error) {
+      if (trouble_.empty()) trouble_ = error.what();
+    }
+  }
+
+  void write() {
+    written_ = Clock::now();
+    report_->finish();
+  }
+
+  std::string trouble_;
   std::optional<Report> report_;
   Clock::time_point written_ = Clock::now();
+};
+
+/// One line a kind of warning and a run: those that differ in numbers only, such as the frame's in
+/// a file name, are one kind. The report has them all.
+class SaidWarnings {
+ public:
+  bool isNew(const std::string& warning) {
+    std::string kind;
+    for (const char c : warning) {
+      const bool digit = c >= '0' && c <= '9';
+      if (!digit) kind += c;
+      if (digit && !kind.ends_with('#')) kind += '#';
+    }
+    return kinds_.insert(std::move(kind)).second;
+  }
+
+ private:
+  std::set<std::string> kinds_;
 };
 
 int comp(const CompOptions& options, Console& console) {
@@ -136,22 +196,31 @@ int comp(const CompOptions& options, Console& console) {
                                      console.terminal, console.columns);
 
   RunReport report(options, look);
+  SaidWarnings said;
 
   tbb::task_arena arena(threads);
   BatchResult result;
   arena.execute([&] {
     progress->begin(batch.jobs().size());
+    for (const std::string& note : batch.notes()) progress->warning(note);
     result = batch.run([&](const CompEvent& event) {
       const std::string name = event.job->name();
-      for (const std::string& warning : event.warnings) progress->warning(name + ": " + warning);
+      for (const std::string& warning : event.warnings)
+        if (said.isNew(warning)) progress->warning(name + ": " + warning);
       report.add(event);
       const FrameEvent& frame = event.frame;
       progress->frame({name, frame.outcome == FrameOutcome::kept, frame.message,
                        frame.readSeconds + frame.computeSeconds + frame.writeSeconds});
     });
   });
+  for (const std::string& warning : batch.unused()) progress->warning(warning);
+  for (const size_t index : result.lost) report.addLost(batch.jobs()[index]);
   report.finish();
-  return finish(result, batch.jobs(), options.skipBadFrames, interrupts, *progress, console);
+  const int code =
+      finish(result, batch.jobs(), options.skipBadFrames, interrupts, *progress, console);
+  if (report.trouble().empty()) return code;
+  console.message("ERROR: the report is not complete: " + report.trouble());
+  return code == allGood ? someFailed : code;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/output_name.h"
 #include "cli/commands.h"
 #include "exr/read_channels.h"
 #include "exr/write_image.h"
@@ -70,6 +71,7 @@ void print(std::ostream& out, const PlaneDifference& d, int truthSamples) {
 }
 
 void compare(const CompareOptions& options, Console& console) {
+  if (!options.picture.empty()) requireSuffix(options.picture, ".png", "--picture");
   const Floats value = readPlane(options.file, options.channel);
   const Floats truth = readPlane(
       options.truthFile, options.truthChannel.empty() ? options.channel : options.truthChannel);
@@ -82,7 +84,7 @@ void compare(const CompareOptions& options, Console& console) {
     writePng(options.picture, picture, picture, picture, {}, 8);
   }
   if (options.json)
-    console.out << toJson(difference).dump(2) << "\n";
+    console.results(toJson(difference).dump(2));
   else
     print(console.out, difference, options.truthSamples);
 }

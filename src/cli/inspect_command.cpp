@@ -18,72 +18,75 @@ std::string spell(const Window& w) {
   return fmt::format("{}x{}{:+}{:+}", w.width, w.height, w.x, w.y);
 }
 
-void printLayers(std::ostream& out, const Inspection& found) {
-  out << "layers\n";
+void printLayers(Console& out, const Inspection& found) {
+  out.result("layers");
   for (const InspectedLayer& layer : found.layers) {
     std::vector<std::string> passes;
     for (const InspectedPass& pass : layer.passes)
       passes.push_back(fmt::format("{} ({})", pass.name.empty() ? "RGBA" : pass.name, pass.type));
-    out << fmt::format("  {}: {}\n", layer.name.empty() ? "(no layer)" : layer.name,
-                       fmt::join(passes, ", "));
+    out.result(fmt::format("  {}: {}", layer.name.empty() ? "(no layer)" : layer.name,
+                           fmt::join(passes, ", ")));
   }
 }
 
-void printLights(std::ostream& out, const Inspection& found) {
+void printLights(Console& out, const Inspection& found) {
   if (found.lights.empty()) return;
-  out << "lights\n";
+  out.result("lights");
   for (const InspectedLight& light : found.lights) {
     size_t masks = 0;
     for (const InspectedMask& mask : light.masks) masks += mask.found;
-    out << fmt::format("  {} ({})", light.name, light.type);
+    std::string line = fmt::format("  {} ({})", light.name, light.type);
     if (!light.masks.empty())
-      out << fmt::format(", {} of {} masks ({})", masks, light.masks.size(), light.arrangement);
+      line += fmt::format(", {} of {} masks ({})", masks, light.masks.size(), light.arrangement);
     if (!light.depthMap.empty())
-      out << fmt::format(", depth map {}{}", light.depthMap,
-                         light.depthMapFound ? "" : " (missing)");
-    if (!light.truthLayer.empty()) out << ", truth " << light.truthLayer;
-    out << "\n";
+      line +=
+          fmt::format(", depth map {}{}", light.depthMap, light.depthMapFound ? "" : " (missing)");
+    if (!light.truthLayer.empty()) line += ", truth " + light.truthLayer;
+    out.result(line);
   }
 }
 
-void printNames(std::ostream& out, const Inspection& found) {
+void printNames(Console& out, const Inspection& found) {
   for (const InspectedCryptomatte& matte : found.cryptomattes)
-    out << fmt::format("cryptomatte {} ({} ranks): {}\n", matte.name, matte.ranks,
-                       listNames(matte.names, 40));
+    out.result(fmt::format("cryptomatte {} ({} ranks): {}", matte.name, matte.ranks,
+                           listNames(matte.names, 40)));
   if (found.objects.empty()) return;
-  out << "objects\n";
+  out.result("objects");
   for (const InspectedObject& object : found.objects)
-    out << fmt::format("  {} (index {}): {}\n", object.name, object.index,
-                       listNames(object.materials));
+    out.result(
+        fmt::format("  {} (index {}): {}", object.name, object.index, listNames(object.materials)));
 }
 
-void printFindings(std::ostream& out, const Inspection& found) {
+void printFindings(Console& out, const Inspection& found) {
   for (const Finding& finding : found.findings) {
     const char* kind = finding.kind == FindingKind::missing   ? "missing"
                        : finding.kind == FindingKind::warning ? "warning"
                                                               : "error";
-    out << fmt::format("{}: {}{}{}\n", kind, finding.what, finding.remedy.empty() ? "" : "; ",
-                       finding.remedy);
+    out.result(fmt::format("{}: {}{}{}", kind, finding.what, finding.remedy.empty() ? "" : "; ",
+                           finding.remedy));
   }
 }
 
-void printInspection(std::ostream& out, const Inspection& found) {
-  out << fmt::format("{}: data window {}, display window {}, pixel aspect {}, {} channels\n",
-                     found.path.string(), spell(found.dataWindow), spell(found.displayWindow),
-                     found.pixelAspect, found.channelCount);
+void printInspection(Console& out, const Inspection& found) {
+  out.result(fmt::format("{}: data window {}, display window {}, pixel aspect {}, {} channels",
+                         found.path.string(), spell(found.dataWindow), spell(found.displayWindow),
+                         found.pixelAspect, found.channelCount));
   for (const Part& part : found.parts)
-    out << fmt::format("part {}: {}, {}{}\n", part.name.empty() ? "(unnamed)" : part.name,
-                       part.compression, part.tiled ? "tiled" : "scanlines",
-                       part.dataWindow == found.dataWindow ? "" : ", " + spell(part.dataWindow));
+    out.result(
+        fmt::format("part {}: {}, {}{}", part.name.empty() ? "(unnamed)" : part.name,
+                    part.compression, part.tiled ? "tiled" : "scanlines",
+                    part.dataWindow == found.dataWindow ? "" : ", " + spell(part.dataWindow)));
+  if (!found.views.empty())
+    out.result(fmt::format("views {}; shown: {}", listNames(found.views), found.view));
   if (found.sidecar.empty())
-    out << "no sidecar\n";
+    out.result("no sidecar");
   else
-    out << fmt::format("sidecar {}: frame {}, {} fps\n", found.sidecar, found.frame.value_or(0),
-                       found.fps.value_or(0));
+    out.result(fmt::format("sidecar {}: frame {}, {} fps", found.sidecar, found.frame.value_or(0),
+                           found.fps.value_or(0)));
   printLayers(out, found);
-  out << "passes\n";
+  out.result("passes");
   for (const InspectedAov& aov : found.aovs)
-    out << fmt::format("  {}: {}\n", aov.purpose, aov.pass.empty() ? "not found" : aov.pass);
+    out.result(fmt::format("  {}: {}", aov.purpose, aov.pass.empty() ? "not found" : aov.pass));
   printLights(out, found);
   printNames(out, found);
   printFindings(out, found);
@@ -106,10 +109,9 @@ void addInspectCommand(CLI::App& app, Console& console, int&) {
     const Look look = readLook(options->look, {});
     const Inspection found = inspectFrame(options->input, look.frame);
     if (options->json)
-      console.out << toJson(found).dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-                  << "\n";
+      console.results(toJson(found).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else
-      printInspection(console.out, found);
+      printInspection(console, found);
   });
 }
 

@@ -4,9 +4,11 @@
 
 #include <iostream>
 
+#include "base/standard_descriptors.h"
 #include "cli/commands.h"
 
 int main(int argc, char** argv) {
+  kagefude::ensureStandardDescriptors();
   // With an arena a thread, the allocator keeps planes of finished frames in every one of them, and
   // a batch was measured at twice its --max-memory. Planes are few and large, so one is enough.
   mallopt(M_ARENA_MAX, 1);

@@ -3,14 +3,38 @@
 #include <ostream>
 
 #include "base/error.h"
+#include "base/files_read.h"
+#include "base/printable.h"
 #include "cli/commands.h"
 
 namespace kagefude {
 namespace {
 
 int report(Console& console, const std::exception& error, int code) {
-  console.err << "ERROR: " << error.what() << std::endl;
+  console.message(std::string("ERROR: ") + error.what());
   return code;
+}
+
+/// An empty value is a script's unset variable more often than a wish, and would be taken for "not
+/// given". An empty look is one, though: all defaults.
+void refuseEmptyValues(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options())
+      if (option->get_name() != "look" && option->get_expected_max() > 0 &&
+          option->get_items_expected_max() > 0)
+        option->check([](const std::string& value) {
+          return value.empty() ? std::string("the value is empty") : std::string();
+        });
+    refuseEmptyValues(*command);
+  }
+}
+
+/// A result that cannot be printed (a full disk) is no success.
+int finishPrinting(Console& console, int exit) {
+  console.out.flush();
+  if (console.out || exit != allGood) return exit;
+  return report(console, OutputError("the result cannot be printed: is the disk full?"),
+                someFailed);
 }
 
 /// The call as a shell would take it again.
@@ -30,9 +54,8 @@ std::string commandLine(int argc, const char* const* argv) {
   return line;
 }
 
-}  // namespace
-
-int runProgram(int argc, const char* const* argv, Console& console) {
+int run(int argc, const char* const* argv, Console& console) {
+  const FilesReadGuard guard;
   int exit = allGood;
   CLI::App app{"kagefude: soft shadows and brush touch for rendered frames", "kagefude"};
   app.set_version_flag("--version", "kagefude " KAGEFUDE_VERSION);
@@ -46,6 +69,7 @@ int runProgram(int argc, const char* const* argv, Console& console) {
   addCompareCommand(app, console, exit);
   addBenchCommand(app, console, exit);
   addCheckCommand(app, console, exit);
+  refuseEmptyValues(app);
   try {
     app.parse(argc, argv);
     return exit;
@@ -67,6 +91,18 @@ int runProgram(int argc, const char* const* argv, Console& console) {
   } catch (const std::exception& error) {
     return report(console, error, someFailed);
   }
+}
+
+}  // namespace
+
+void Console::result(std::string_view line) { out << printable(line) << '\n'; }
+
+void Console::results(std::string_view lines) { out << printableLines(lines) << '\n'; }
+
+void Console::message(std::string_view line) { err << printable(line) << std::endl; }
+
+int runProgram(int argc, const char* const* argv, Console& console) {
+  return finishPrinting(console, run(argc, argv, console));
 }
 
 }  // namespace kagefude

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <ostream>
 
 #include "base/frame_pattern.h"
+#include "base/output_name.h"
 #include "cli/commands.h"
 #include "compositor/compose_frame.h"
 #include "compositor/contact_sheet.h"
@@ -18,6 +18,7 @@ struct SheetOptions {
 };
 
 void drawSheet(const SheetOptions& options, Console& console) {
+  requireSuffix(options.output, ".png", "--output");
   const Look look = readLook(options.look, options.overrides);
   const Colour colour(look.colourConfig());
   const StripSet strips(look, colour);
@@ -27,7 +28,7 @@ void drawSheet(const SheetOptions& options, Console& console) {
   const FrameResult result = composeFrame(look, strips, plan, readFramePlanes(plan), &sheet);
   sheet.write(options.output);
   for (const std::string& warning : result.warnings)
-    console.err << "warning: " << options.input << ": " << warning << "\n";
+    console.message("warning: " + options.input + ": " + warning);
 }
 
 }  // namespace

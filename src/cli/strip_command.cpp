@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <ostream>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/output_name.h"
 #include "cli/commands.h"
 #include "exr/write_image.h"
 #include "look/override.h"
@@ -33,9 +33,10 @@ StripPaintParams paramsFrom(const MakeOptions& options) {
 }
 
 void makeStripFile(const MakeOptions& options, Console& console) {
+  requireSuffix(options.output, ".png", "output");
   const PaintedStrip strip = paintStrip(paramsFrom(options));
   writePng(options.output, strip.r, strip.g, strip.b, {}, 16);
-  console.out << fmt::format("{}: {} x {}\n", options.output, strip.r.width(), strip.r.height());
+  console.result(fmt::format("{}: {} x {}", options.output, strip.r.width(), strip.r.height()));
 }
 
 nlohmann::ordered_json toJson(const StripReport& report) {
@@ -50,21 +51,27 @@ nlohmann::ordered_json toJson(const StripReport& report) {
           {"problems", report.problems}};
 }
 
+void printReport(const std::string& file, const StripReport& report, Console& console) {
+  console.result(fmt::format("{}: {} x {}", file, report.width, report.height));
+  console.result(fmt::format("seam {:.4f}, {:.2f} times the difference of columns inside",
+                             report.seamError, report.seamRatio));
+  console.result(fmt::format("brightness {:.3f} at the bottom, {:.3f} at the top, disorder {:.3f}",
+                             report.bottomBrightness, report.topBrightness, report.disorder));
+  for (const std::string& problem : report.problems) console.result("problem: " + problem);
+  if (report.problems.empty()) console.result("ready to paint with");
+}
+
 int checkStripFile(const std::string& file, bool json, Console& console) {
   const StripPicture picture = readStrip(file);
   const StripReport report = checkStrip(picture.red, picture.green, picture.blue);
-  if (json) {
-    console.out << toJson(report).dump(2) << "\n";
-    return report.problems.empty() ? allGood : someFailed;
-  }
-  console.out << fmt::format(
-      "{}: {} x {}\nseam {:.4f}, {:.2f} times the difference of columns inside\n"
-      "brightness {:.3f} at the bottom, {:.3f} at the top, disorder {:.3f}\n",
-      file, report.width, report.height, report.seamError, report.seamRatio,
-      report.bottomBrightness, report.topBrightness, report.disorder);
-  for (const std::string& problem : report.problems) console.out << "problem: " << problem << "\n";
-  if (report.problems.empty()) console.out << "ready to paint with\n";
-  return report.problems.empty() ? allGood : someFailed;
+  if (json)
+    console.results(toJson(report).dump(2));
+  else
+    printReport(file, report, console);
+  if (report.problems.empty()) return allGood;
+  console.message(fmt::format("ERROR: {} is not fit to paint with: {}", file,
+                              fmt::join(report.problems, "; ")));
+  return someFailed;
 }
 
 void addMake(CLI::App& strip, Console& console) {

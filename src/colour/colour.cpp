@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/plain_file.h"
 #include "image/parallel.h"
 
 namespace ocio = OCIO_NAMESPACE;
@@ -22,7 +23,10 @@ struct Colour::State {
 
   // Name as the configuration has it, or a LookError.
   std::string requireSpace(std::string_view name) const;
-  // Applies the processor that `make` returns; a broken one (a missing LUT) is an InputError.
+  // The processor that `make` returns; a broken one (a missing LUT) is an InputError.
+  template <class Make>
+  ocio::ConstCPUProcessorRcPtr processor(const Make& make) const;
+  // Applies it.
   template <class Make>
   void apply(const Make& make, View<float> red, View<float> green, View<float> blue) const;
 
@@ -67,18 +71,22 @@ std::string Colour::State::requireSpace(std::string_view name) const {
 }
 
 template <class Make>
-void Colour::State::apply(const Make& make, View<float> red, View<float> green,
-                          View<float> blue) const {
-  ocio::ConstCPUProcessorRcPtr cpu;
+ocio::ConstCPUProcessorRcPtr Colour::State::processor(const Make& make) const {
   try {
     // OCIO's own power functions are used on every machine, so results do not depend on the C
     // library's choice of code for the processor.
     const auto alone = lock();
-    cpu = make()->getOptimizedCPUProcessor(ocio::OPTIMIZATION_DEFAULT);
+    return make()->getOptimizedCPUProcessor(ocio::OPTIMIZATION_DEFAULT);
   } catch (const ocio::Exception& problem) {
     throw InputError(
         fmt::format("the colour configuration {} cannot be used: {}", source, problem.what()));
   }
+}
+
+template <class Make>
+void Colour::State::apply(const Make& make, View<float> red, View<float> green,
+                          View<float> blue) const {
+  const ocio::ConstCPUProcessorRcPtr cpu = processor(make);
   if (cpu->isNoOp()) return;
   parallelRows(red.height, [&](int first, int end) {
     ocio::PlanarImageDesc rows(red.row(first), green.row(first), blue.row(first), nullptr,
@@ -92,9 +100,9 @@ Colour::Colour(const std::string& config) : state_(std::make_unique<State>()) {
   std::string path = config;
   if (path.empty() && environment) path = environment;
   state_->source = path.empty() ? "built-in" : path;
+  if (!path.empty()) requirePlainFile(path);
   try {
     state_->config = loadConfig(path);
-    state_->config->validate();
   } catch (const ocio::Exception& problem) {
     throw InputError(fmt::format("the colour configuration {} cannot be used: {}", state_->source,
                                  problem.what()));
@@ -152,20 +160,26 @@ void Colour::toDisplay(View<float> red, View<float> green, View<float> blue,
 
 const std::string& Colour::source() const { return state_->source; }
 
-std::vector<std::filesystem::path> Colour::files() const {
-  namespace fs = std::filesystem;
-  std::vector<fs::path> files;
-  if (!fs::is_regular_file(state_->source)) return files;
-  files.emplace_back(state_->source);
-  for (int i = 0; i < state_->config->getNumSearchPaths(); ++i) {
-    std::error_code none;
-    const fs::path folder =
-        fs::path(state_->source).parent_path() / state_->config->getSearchPath(i);
-    for (const auto& entry : fs::directory_iterator(folder, none))
-      if (entry.is_regular_file(none)) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
+std::filesystem::path Colour::file() const {
+  return std::filesystem::is_regular_file(state_->source) ? state_->source : "";
+}
+
+std::string Colour::toWorkingId(std::string_view fromSpace) const {
+  const std::string from = state_->requireSpace(fromSpace);
+  return state_
+      ->processor(
+          [&] { return state_->config->getProcessor(from.c_str(), ocio::ROLE_SCENE_LINEAR); })
+      ->getCacheID();
+}
+
+std::string Colour::toDisplayId(std::string_view display, std::string_view view) const {
+  const auto [shownOn, seenAs] = shownThrough(display, view);
+  return state_
+      ->processor([&, &shownOn = shownOn, &seenAs = seenAs] {
+        return state_->config->getProcessor(ocio::ROLE_SCENE_LINEAR, shownOn.c_str(),
+                                            seenAs.c_str(), ocio::TRANSFORM_DIR_FORWARD);
+      })
+      ->getCacheID();
 }
 
 std::string Colour::workingSpace() const {

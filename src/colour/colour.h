@@ -19,7 +19,8 @@ class Colour {
  public:
   /// `config` is a path; empty: the file that $OCIO names, else the built-in configuration (spaces
   /// "Linear Rec.709", "sRGB", "Raw"; display "sRGB" with views "Standard" and "Raw"). Throws
-  /// InputError when it cannot be read or has no scene_linear role.
+  /// InputError when it cannot be read or has no scene_linear role. Its spaces and views are looked
+  /// at when they are used, not before.
   explicit Colour(const std::string& config = "");
   ~Colour();
   Colour(Colour&&) noexcept;
@@ -39,9 +40,15 @@ class Colour {
 
   /// Where the configuration comes from: a path or "built-in".
   const std::string& source() const;
-  /// The files that transforms may depend on: the configuration and everything in the folders that
-  /// it searches for tables, sorted. Empty for the built-in one.
-  std::vector<std::filesystem::path> files() const;
+  /// The configuration's own file; empty for the built-in one.
+  std::filesystem::path file() const;
+  /// Names what a transform does: equal for equal numbers. Tables (wherever the search path, a
+  /// subfolder or a context variable finds them) count with their content. Throws LookError for an
+  /// unknown name, and InputError when the transform cannot be made, such as for a missing table or
+  /// an unset variable: so it is also how a space or a view in use is made sure of, while the
+  /// others of the configuration may be as they like.
+  std::string toWorkingId(std::string_view fromSpace) const;
+  std::string toDisplayId(std::string_view display = {}, std::string_view view = {}) const;
   std::string workingSpace() const;
   bool hasSpace(std::string_view name) const;
   std::vector<std::string> spaces() const;

@@ -53,6 +53,20 @@ void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {
   });
 }
 
+/// Associated "over": drawn lines over what is painted and what is not.
+void putLinesOver(const FramePlanes& planes, BrushResult& brush) {
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x) {
+        const float behind = 1.0f - planes.linesAlpha(x, y);
+        brush.r(x, y) = planes.lines.x(x, y) + behind * brush.r(x, y);
+        brush.g(x, y) = planes.lines.y(x, y) + behind * brush.g(x, y);
+        brush.b(x, y) = planes.lines.z(x, y) + behind * brush.b(x, y);
+        brush.a(x, y) = planes.linesAlpha(x, y) + behind * brush.a(x, y);
+      }
+  });
+}
+
 void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageSink& sink) {
   if (!planes.beauty.empty()) sink.picture("beauty", planes.beauty);
   if (!planes.albedo.empty()) sink.picture("albedo", planes.albedo);
@@ -61,19 +75,31 @@ void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageS
   sink.labels("surfaces", surfaces);
 }
 
+void noteBadPixels(const FramePlanes& planes, std::vector<std::string>& warnings) {
+  const auto note = [&](size_t count, const char* what, const char* taken) {
+    if (count)
+      warnings.push_back(fmt::format("{} {} NaN or Inf in {} and {} taken as {}",
+                                     count == 1 ? "1 pixel" : fmt::format("{} pixels", count),
+                                     count == 1 ? "holds" : "hold", what, count == 1 ? "is" : "are",
+                                     taken));
+  };
+  note(planes.badPixels, "Position or Normal", "background");
+  note(planes.badBeauty, "the beauty", "black");
+  note(planes.badAlbedo, "the albedo", "black");
+  note(planes.badCoverage, "the coverage of Cryptomatte", "wholly its first id");
+}
+
 }  // namespace
 
 FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePlan& plan,
                          FramePlanes planes, StageSink* sink, StageClock* clock) {
   FrameResult result;
   result.warnings = plan.warnings;
+  result.warnings.insert(result.warnings.end(), planes.warnings.begin(), planes.warnings.end());
   if (planes.casting)
     result.warnings.insert(result.warnings.end(), planes.casting->warnings.begin(),
                            planes.casting->warnings.end());
-  if (planes.badPixels)
-    result.warnings.push_back(
-        fmt::format("{} pixels hold NaN or Inf in Position or Normal and are taken as background",
-                    planes.badPixels));
+  noteBadPixels(planes, result.warnings);
   Labels surfaces =
       labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces);
   lap(clock, "surfaces");
@@ -81,6 +107,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   Floats tone = frameTone(look, plan, planes, surfaces, result, sink, clock);
 
   const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
+  result.fittingStyles = styled.fitting;
   adjustTone(tone, styled.anchorIndex, styled.tones);
   lap(clock, "styles and tone");
   if (sink) sink->number("brush.tone", tone);
@@ -93,11 +120,12 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   }
   multiplyAlbedo(planes, styled, brush);
   blendEdges(plan, planes, brush);
-  Floats outline = drawStyleOutlines(look, plan, planes, styled, asksFor(look, "outline"), brush);
+  Floats outline = drawStyleOutlines(plan, planes, styled, asksFor(look, "outline"), brush);
   lap(clock, "edges and outlines");
   if (sink && !outline.empty()) sink->number("outline", outline);
   if (look.output.background == Background::beauty && !planes.beauty.empty())
     putBeautyBehind(planes, brush);
+  if (!planes.linesAlpha.empty()) putLinesOver(planes, brush);
   result.colour.x = std::move(brush.r);
   result.colour.y = std::move(brush.g);
   result.colour.z = std::move(brush.b);

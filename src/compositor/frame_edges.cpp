@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <unordered_map>
 
+#include "base/same_params.h"
 #include "image/parallel.h"
 #include "passes/edges/coverage_blend.h"
 #include "passes/edges/outline.h"
@@ -44,6 +46,26 @@ Floats cameraDistance(const FramePlan& plan, const FramePlanes& planes) {
   return distance;
 }
 
+/// Lines of the anchors in `own`, in the colour of their styles.
+void paintLines(const OutlineResult& lines, const StyledSurfaces& styled,
+                const std::vector<bool>& own, bool always, BrushResult& brush, View<float> all) {
+  parallelRows(all.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < all.width; ++x) {
+        const float share = lines.coverage.view()(x, y);
+        const uint32_t owner = lines.owner.view()(x, y);
+        if (share <= 0.0f || owner == 0 || owner > own.size() || !own[owner - 1]) continue;
+        const auto& colour = styled.outlines[owner - 1].colour;
+        if (colour || always) all(x, y) = std::max(all(x, y), share);
+        if (!colour) continue;
+        brush.r(x, y) += (colour->x - brush.r(x, y)) * share;
+        brush.g(x, y) += (colour->y - brush.g(x, y)) * share;
+        brush.b(x, y) += (colour->z - brush.b(x, y)) * share;
+        brush.a(x, y) += (1.0f - brush.a(x, y)) * share;
+      }
+  });
+}
+
 }  // namespace
 
 void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush) {
@@ -59,35 +81,29 @@ void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& b
   brush.a = std::move(blended.a);
 }
 
-Floats drawStyleOutlines(const Look& look, const FramePlan& plan, const FramePlanes& planes,
+Floats drawStyleOutlines(const FramePlan& plan, const FramePlanes& planes,
                          const StyledSurfaces& styled, bool always, BrushResult& brush) {
   const bool any = std::any_of(styled.outlines.begin(), styled.outlines.end(),
-                               [](const auto& colour) { return colour.has_value(); });
+                               [](const StyleOutline& line) { return line.colour.has_value(); });
   if (!any && !always) return {};
   // Lines are drawn between anchors, so the owner of a line names its style.
   Labels anchors(planes.width, planes.height);
   std::copy_n(styled.anchorIndex.row(0), anchors.view().pixels(), anchors.row(0));
   const Floats depth = cameraDistance(plan, planes);
-  OutlineResult lines =
-      drawOutlines(anchors, planes.normal, planes.position, depth, look.passes.outline);
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x) {
-        float& share = lines.coverage(x, y);
-        const uint32_t owner = lines.owner(x, y);
-        if (share <= 0.0f || owner == 0 || owner > styled.outlines.size()) continue;
-        const auto& colour = styled.outlines[owner - 1];
-        if (!colour) {
-          share = always ? share : 0.0f;
-          continue;
-        }
-        brush.r(x, y) += (colour->x - brush.r(x, y)) * share;
-        brush.g(x, y) += (colour->y - brush.g(x, y)) * share;
-        brush.b(x, y) += (colour->z - brush.b(x, y)) * share;
-        brush.a(x, y) += (1.0f - brush.a(x, y)) * share;
-      }
-  });
-  return std::move(lines.coverage);
+  Floats all(planes.width, planes.height, 0.0f);
+  std::vector<bool> drawn(styled.outlines.size(), false);
+  for (size_t first = 0; first < drawn.size(); ++first) {
+    if (drawn[first]) continue;
+    const OutlineParams& params = styled.outlines[first].params;
+    std::vector<bool> own(drawn.size(), false);
+    for (size_t i = first; i < drawn.size(); ++i)
+      own[i] = sameParams(outlineParameters, styled.outlines[i].params, params);
+    std::transform(drawn.begin(), drawn.end(), own.begin(), drawn.begin(), std::logical_or<>());
+    const OutlineResult lines =
+        drawOutlines(anchors, planes.normal, planes.position, depth, params);
+    paintLines(lines, styled, own, always, brush, all);
+  }
+  return all;
 }
 
 }  // namespace kagefude

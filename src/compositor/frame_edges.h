@@ -13,7 +13,7 @@ void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& b
 /// Draws the styles' contour lines over the strokes, each in the colour of the style of its nearest
 /// surface. Returns the lines' coverage (layer `outline`); empty when no style draws any and
 /// `always` is false.
-Floats drawStyleOutlines(const Look& look, const FramePlan& plan, const FramePlanes& planes,
+Floats drawStyleOutlines(const FramePlan& plan, const FramePlanes& planes,
                          const StyledSurfaces& styled, bool always, BrushResult& brush);
 
 }  // namespace kagefude

@@ -14,6 +14,11 @@ namespace {
 
 V3f toFloat(const V3d& v) { return V3f(v); }
 
+LightType kindOf(LightKind kind) {
+  if (kind == LightKind::automatic) return LightType::point;
+  return static_cast<LightType>(static_cast<int>(kind) - static_cast<int>(LightKind::point));
+}
+
 /// The settings of the last [[light]] that matches, or the look's own.
 const LightLook* settingsOf(const Look& look, const std::string& name) {
   const LightLook* found = nullptr;
@@ -39,10 +44,12 @@ std::optional<LightGeometry> geometryOf(const SidecarLight& source) {
     return std::nullopt;
   const double offset = source.masks->offset;
   const bool round = source.type == LightType::point || source.type == LightType::spot;
-  return LightGeometry{
-      source.type == LightType::sun,  toFloat(source.position),
-      toFloat(source.direction),      toFloat(source.axisU * offset),
-      toFloat(source.axisV * offset), round && source.masks->arrangement == MaskArrangement::disc};
+  return LightGeometry{source.type == LightType::sun,
+                       toFloat(source.position),
+                       toFloat(source.direction),
+                       toFloat(source.axisU * offset),
+                       toFloat(source.axisV * source.masks->offsetV),
+                       round && source.masks->arrangement == MaskArrangement::disc};
 }
 
 /// From a round light's centre to the farther mask of a pair; nothing for other lights.
@@ -53,15 +60,32 @@ V3f towardsFarMask(const SidecarLight& source) {
   return toFloat(source.axisU * source.masks->offset);
 }
 
-/// Irradiance at the subject up to a constant: how much this light shapes the tone.
-float weightOf(const SidecarLight& light) {
-  const double luminance =
-      0.2126 * light.color[0] + 0.7152 * light.color[1] + 0.0722 * light.color[2];
-  if (light.type == LightType::sun) return static_cast<float>(light.energy * luminance);
-  const double distance2 = (light.position - light.subjectCenter).length2();
-  constexpr double wattsToIrradiance = 1.0 / (4.0 * M_PI * M_PI);
-  return static_cast<float>(light.energy * luminance * wattsToIrradiance /
-                            std::max(distance2, 1e-12));
+/// What only describes a light of the look's own would do nothing on one that the JSON describes.
+void refuseOwnDescription(const LightLook* settings, const SidecarLight& source) {
+  if (!settings) return;
+  const LightParams& params = settings->light;
+  const auto refuse = [&](bool given, const char* key) {
+    if (given)
+      throw LookError(fmt::format(
+          "light.{} does nothing on light {}, which the JSON describes; leave it out, or give the "
+          "light another name",
+          key, source.name));
+  };
+  refuse(!params.masks.empty(), "masks");
+  refuse(!params.places.empty(), "places");
+  refuse(!params.depthMap.empty(), "depth_map");
+  refuse(!params.lightFromWorld.empty(), "light_from_world");
+  refuse(!params.clipFromLight.empty(), "clip_from_light");
+  refuse(params.type != LightKind::automatic && kindOf(params.type) != source.type, "type");
+}
+
+/// Lays down what the look or the JSON says of the light's brightness.
+void weigh(const SidecarLight& source, const WholeShot* shot, const LightLook* settings,
+           FrameLight& light) {
+  const bool moved =
+      settings && !(settings->light.position.empty() && settings->light.direction.empty());
+  light.weight =
+      weighLight(source, shot, light.light, moved, settings ? settings->light.weight : -1.0f);
 }
 
 ShadowMethod arrangementMethod(MaskArrangement arrangement) {
@@ -72,6 +96,8 @@ ShadowMethod arrangementMethod(MaskArrangement arrangement) {
       return ShadowMethod::line;
     case MaskArrangement::disc:
       return ShadowMethod::disc;
+    case MaskArrangement::hard:
+      return ShadowMethod::hard;
   }
   return ShadowMethod::none;
 }
@@ -98,7 +124,8 @@ bool moveLight(const LightLook* settings, FrameLight& light) {
   return true;
 }
 
-FrameLight fromSidecar(const Look& look, const SidecarLight& source, bool hasCasters) {
+FrameLight fromSidecar(const Look& look, const SidecarLight& source, const WholeShot* shot,
+                       bool hasCasters) {
   FrameLight light;
   light.name = source.name;
   light.light = {source.type,
@@ -109,20 +136,22 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, bool hasCas
                  static_cast<float>(source.coneBlend)};
   light.subjectCentre = toFloat(source.subjectCenter);
   light.subjectRadius = static_cast<float>(source.subjectRadius);
-  light.weight = weightOf(source);
   const LightLook* const settings = settingsOf(look, source.name);
+  refuseOwnDescription(settings, source);
   applySettings(look, settings, light);
-  if (moveLight(settings, light)) {
-    if (light.method == ShadowMethod::automatic)
-      light.method = source.castsShadow ? casterMethod(light.light.radius) : ShadowMethod::none;
+  const bool moved = moveLight(settings, light);
+  weigh(source, shot, settings, light);
+  // Without shadow there are no masks and no depth map either.
+  if (!source.castsShadow) light.method = ShadowMethod::none;
+  if (moved) {
+    if (light.method == ShadowMethod::automatic) light.method = casterMethod(light.light.radius);
     return light;
   }
   if (light.method == ShadowMethod::automatic) {
-    light.method = !source.castsShadow ? ShadowMethod::none
-                   : source.masks      ? arrangementMethod(source.masks->arrangement)
-                   : source.depthMap   ? ShadowMethod::pcf
-                   : hasCasters        ? casterMethod(light.light.radius)
-                                       : ShadowMethod::none;
+    light.method = source.masks      ? arrangementMethod(source.masks->arrangement)
+                   : source.depthMap ? ShadowMethod::pcf
+                   : hasCasters      ? casterMethod(light.light.radius)
+                                     : ShadowMethod::none;
   }
   if (source.depthMap)
     light.depthMap = {source.depthMap->file, source.depthMap->channel,
@@ -178,10 +207,11 @@ FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool
   const LightParams& params = settings.light;
   FrameLight light;
   light.name = params.name;
-  light.light.type = params.type;
+  light.light.type = kindOf(params.type);
   light.light.position = vectorFrom(params.position, {0, 0, 0});
   light.light.direction = vectorFrom(params.direction, {0, 0, -1}).normalized();
   light.light.radius = params.radius;
+  light.weight = weighOwnLight(params.weight);
   applySettings(look, &settings, light);
   if (light.method == ShadowMethod::automatic) light.method = methodFor(params, hasCasters);
   if (needsMasks(light.method)) {
@@ -202,7 +232,7 @@ FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool
 bool isGlob(const std::string& name) { return name.find_first_of("*?") != std::string::npos; }
 
 bool describesLight(const LightParams& params) {
-  return !params.position.empty() || (!params.direction.empty() && params.type == LightType::sun);
+  return !params.position.empty() || (!params.direction.empty() && params.type == LightKind::sun);
 }
 
 std::vector<FrameLight> allLights(const Look& look, const Sidecar* sidecar, int frame,
@@ -210,7 +240,8 @@ std::vector<FrameLight> allLights(const Look& look, const Sidecar* sidecar, int 
   std::vector<FrameLight> lights;
   if (sidecar)
     for (const SidecarLight& light : sidecar->lights)
-      lights.push_back(fromSidecar(look, light, hasCasters));
+      lights.push_back(
+          fromSidecar(look, light, sidecar->shot ? &*sidecar->shot : nullptr, hasCasters));
   for (const LightLook& settings : look.lights) {
     const std::string& name = settings.light.name;
     if (isGlob(name) || (sidecar && sidecar->findLight(name))) continue;
@@ -284,9 +315,12 @@ std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
   }
   if (chosen.empty())
     throw InputError(fmt::format(
-        "no light takes part: shadow.lights asks for {}, the frame has {}{}",
-        listNames(look.shadow.lights), listNames(names),
+        "no light takes part in {}: shadow.lights asks for {}, the frame has {}{}",
+        image.path.filename().string(), listNames(look.shadow.lights), listNames(names),
         names.empty() ? "; export a light with the frame, or describe one in the look" : ""));
+  std::vector<LightWeight*> weights;
+  for (FrameLight& light : chosen) weights.push_back(&light.weight);
+  weighUnknown(weights);
   return chosen;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compositor/light_weight.h"
 #include "frame/aov_resolver.h"
 #include "frame/sidecar.h"
 #include "look/look.h"
@@ -27,7 +28,7 @@ struct FrameLight {
   Light light;
   V3f subjectCentre{0, 0, 0};
   float subjectRadius = 0;                   ///< 0: unknown
-  float weight = 1;                          ///< share of the tone, before normalising over lights
+  LightWeight weight;                        ///< how much of the tone is its
   ShadowMethod method = ShadowMethod::none;  ///< never `automatic`
   float strength = 1;
   PassParams passes;

@@ -3,8 +3,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <map>
 
 #include "compositor/output_layers.h"
+#include "frame/casters.h"
 
 namespace kagefude {
 namespace {
@@ -53,6 +55,30 @@ size_t depthMapBytes(const FramePlan& plan) {
   return bytes;
 }
 
+/// Every entry is placed in the world and joins the tree, so instances of one mesh count each. A
+/// triangle takes at least 20 bytes of an OBJ, and 320 while the tree is built: its mesh, the tree
+/// and the sorted edges.
+size_t casterBytes(const FramePlan& plan) {
+  constexpr size_t ofMeshFile = 16;
+  const auto wantsCasters = [](const FrameLight& light) {
+    return entryOf(light.method).needs.casters || light.method == ShadowMethod::blob;
+  };
+  if (!plan.hasCasters || std::none_of(plan.lights.begin(), plan.lights.end(), wantsCasters))
+    return 0;
+  std::map<std::string, size_t> sizes;
+  size_t bytes = 0;
+  for (const CasterEntry& entry : readCasterEntries(plan.sidecar->path)) {
+    const auto [place, isNew] = sizes.try_emplace(entry.file);
+    std::error_code missing;
+    const auto size =
+        isNew ? std::filesystem::file_size(plan.sidecar->path.parent_path() / entry.file, missing)
+              : 0;
+    if (isNew && !missing) place->second = ofMeshFile * size;
+    bytes += place->second;
+  }
+  return bytes;
+}
+
 }  // namespace
 
 size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
@@ -64,6 +90,7 @@ size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
   size_t floats = 4 * (3 + 3);
   if (plan.albedo) floats += 4 * 3;
   if (plan.beauty) floats += 4 * 4;
+  if (!plan.lines.empty()) floats += 4 * 4;
   const size_t ids = plan.materialId ? 2 * ofIds : ofIds;
   const size_t layers = layerBytes(look, plan.lights);
   const size_t edges = plan.coverage ? ofEdgeRanks : 0;
@@ -78,7 +105,7 @@ size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
   const size_t pixels =
       static_cast<size_t>(plan.image.width) * static_cast<size_t>(plan.image.height);
   return (std::max({reading, composing, writing}) + ofChange) * pixels + depthMapBytes(plan) +
-         chunkBytes(plan, std::max(input, asHalf + layers + passed));
+         casterBytes(plan) + chunkBytes(plan, std::max(input, asHalf + layers + passed));
 }
 
 }  // namespace kagefude

@@ -8,6 +8,8 @@
 #include "compositor/output_layers.h"
 #include "frame/casters.h"
 #include "frame/cryptomatte.h"
+#include "frame/frame_view.h"
+#include "frame/lossy_passes.h"
 
 namespace kagefude {
 namespace {
@@ -74,11 +76,42 @@ bool wantsOutlines(const Look& look) {
   return asksFor(look, "outline") || anyStyleHas(look, &StyleParams::outlineColour);
 }
 
+std::string requireLinesChannel(const FramePlan& plan, const char* channel) {
+  const std::string name = fmt::format("{}.{}", plan.sidecar->linesLayer, channel);
+  if (!plan.image.findChannel(name))
+    throw InputError(fmt::format("{} has no channel {} of the lines that its JSON names",
+                                 plan.image.path.string(), name));
+  return name;
+}
+
 void nameObjectsFromSidecar(FramePlan& plan) {
   if (!plan.sidecar) return;
   for (const SidecarObject& object : plan.sidecar->objects)
     plan.objectNames.emplace(plan.idSource == IdSource::index ? object.index : object.cryptoId,
                              object.name);
+}
+
+bool isFullName(const std::string& name) {
+  return !name.empty() && name.find_first_of("*?") == std::string::npos;
+}
+
+void nameByHash(const std::string& name, std::map<uint32_t, std::string>& names) {
+  if (isFullName(name)) names.emplace(cryptomatteId(name), name);
+}
+
+/// A Cryptomatte's ids are hashes of names, so a name in full is known without a manifest.
+void nameObjectsFromLook(const Look& look, FramePlan& plan) {
+  plan.listedNames = plan.objectNames;
+  plan.listedMaterials = plan.materialNames;
+  for (const StyleLook& style : look.styles) {
+    if (plan.idSource == IdSource::cryptomatte)
+      for (const std::string& name : style.style.object) nameByHash(name, plan.objectNames);
+    if (plan.materialId && plan.materialSource == IdSource::cryptomatte)
+      for (const std::string& name : style.style.material) nameByHash(name, plan.materialNames);
+  }
+  if (plan.idSource != IdSource::cryptomatte) return;
+  nameByHash(look.shadow.receiver, plan.objectNames);
+  for (const LightLook& light : look.lights) nameByHash(light.shadow.receiver, plan.objectNames);
 }
 
 void planMaterials(const AovNames& names, FramePlan& plan) {
@@ -97,6 +130,18 @@ void planMaterials(const AovNames& names, FramePlan& plan) {
   if (named)
     for (const SidecarMaterial& material : plan.sidecar->materials)
       plan.materialNames.emplace(material.cryptoId, material.name);
+}
+
+/// Whether two lights are so alike that another one may lead the strokes in the next frame.
+bool leadMayChange(const Look& look, const FramePlan& plan) {
+  if (!plan.sidecar || plan.sidecar->shot || plan.lights.size() < 2) return false;
+  const bool allChosen = !look.styles.empty() &&
+                         std::all_of(look.styles.begin(), look.styles.end(),
+                                     [](const StyleLook& s) { return !s.style.light.empty(); });
+  std::vector<float> leads;
+  for (const FrameLight& light : plan.lights) leads.push_back(light.weight.lead);
+  std::sort(leads.rbegin(), leads.rend());
+  return !allChosen && leads[1] > 0.5f * leads[0];
 }
 
 }  // namespace
@@ -119,26 +164,44 @@ const SidecarObject* FramePlan::findObject(uint32_t id) const {
   return name.empty() ? nullptr : sidecar->findObject(name);
 }
 
-FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame) {
+FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame,
+                    const std::string& view) {
   FramePlan plan;
   plan.frame = frame;
-  plan.image = openImage(path);
+  plan.image = openFrame(path, view.empty() ? look.frame.view : view);
+  if (view.empty() && !look.frame.view.empty() && plan.image.views.empty())
+    plan.warnings.push_back(
+        fmt::format("the file names no views; all of it is taken for the {} "
+                    "view that frame.view asks for",
+                    look.frame.view));
   plan.sidecar = findSidecar(path);
+  for (const LossyPass& lossy : lossyPasses(plan.image))
+    plan.warnings.push_back(fmt::format("{}; {}", lossy.what, lossy.remedy));
   if (plan.sidecar && plan.image.pixelAspect == 1.0f)
     plan.image.pixelAspect = static_cast<float>(plan.sidecar->pixelAspect);
   const AovNames names = namesFor(look, plan.sidecar);
   plan.position = requireAov(plan.image, names, AovKind::position);
   plan.normal = requireAov(plan.image, names, AovKind::normal);
+  plan.spaces = vectorSpaces(names, plan.image);
+  if (plan.sidecar) plan.spaces.cameraFromWorld = plan.sidecar->camera.cameraFromWorld;
   plan.albedo = findAov(plan.image, names, AovKind::albedo);
   plan.beauty = findAov(plan.image, names, AovKind::beauty);
+  if (plan.sidecar && !plan.sidecar->linesLayer.empty())
+    for (const char* channel : {"R", "G", "B", "A"})
+      plan.lines.push_back(requireLinesChannel(plan, channel));
   planObjects(names, plan);
   if (anyStyleHas(look, &StyleParams::material)) planMaterials(names, plan);
   nameObjectsFromSidecar(plan);
+  nameObjectsFromLook(look, plan);
   planCoverage(look, names, plan);
   if (wantsOutlines(look) && !plan.sidecar) plan.depth = findAov(plan.image, names, AovKind::depth);
   plan.hasCasters = plan.sidecar && !readCasterEntries(plan.sidecar->path).empty();
   plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame,
                              plan.hasCasters);
+  if (leadMayChange(look, plan))
+    plan.warnings.push_back(
+        "the JSON says nothing of the whole shot, so the light that is heaviest in each frame "
+        "leads its strokes; export the shot again, or name one with style.light");
   checkLayers(look, plan.lights);
   return plan;
 }

@@ -7,6 +7,7 @@
 
 #include "compositor/frame_light.h"
 #include "compositor/frame_planes.h"
+#include "frame/vector_spaces.h"
 
 namespace kagefude {
 
@@ -20,15 +21,20 @@ struct FramePlan {
   std::optional<Sidecar> sidecar;
   std::vector<FrameLight> lights;
   Aov position, normal;
+  VectorSpaces spaces;
   std::optional<Aov> albedo, beauty;
-  std::optional<Aov> depth;     ///< only for outlines where no camera is known
-  std::optional<Aov> coverage;  ///< Cryptomatte of objects whose coverage draws the edges
+  std::vector<std::string> lines;  ///< channels R, G, B, A of drawn lines; empty for none
+  std::optional<Aov> depth;        ///< only for outlines where no camera is known
+  std::optional<Aov> coverage;     ///< Cryptomatte of objects whose coverage draws the edges
   IdSource idSource = IdSource::cryptomatte;
   Aov objectId;
   IdSource materialSource = IdSource::cryptomatte;
   std::optional<Aov> materialId;  ///< only when a style asks for materials
   std::map<uint32_t, std::string> objectNames;
   std::map<uint32_t, std::string> materialNames;
+  /// Objects and materials that manifest or sidecar name, without those whose names only the look
+  /// has.
+  std::map<uint32_t, std::string> listedNames, listedMaterials;
   bool hasCasters = false;  ///< whether the sidecar names the shapes that cast shadows
   std::vector<std::string> warnings;
 
@@ -40,8 +46,11 @@ struct FramePlan {
   const SidecarObject* findObject(uint32_t id) const;
 };
 
-/// Opens a frame and finds every pass that the look needs. Throws InputError or LookError that name
-/// what is missing; nothing of the size of the picture is allocated.
-FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame);
+/// Opens a frame, takes its view, and finds every pass that the look needs. `view` is what %V
+/// stands for and wins over frame.view; a file without views is then that view's own. Throws
+/// InputError or LookError that name what is missing; nothing of the size of the picture is
+/// allocated.
+FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame,
+                    const std::string& view = "");
 
 }  // namespace kagefude

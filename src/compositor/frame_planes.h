@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "compositor/casting_scene.h"
@@ -27,12 +28,18 @@ struct FramePlanes {
   Vec3Plane albedo;
   Vec3Plane beauty;
   Floats alpha;
+  Vec3Plane lines;  ///< drawn lines that lie over everything, associated, and their alpha
+  Floats linesAlpha;
   Floats depth;                                 ///< only for outlines where no camera is known
   std::vector<Labels> coverageIds;              ///< Cryptomatte of objects by rank, for clean edges
   std::vector<Floats> coverageShares;           ///< how much of the pixel each covers
   std::vector<LightPlanes> lights;              ///< in the order of the plan's lights
   std::shared_ptr<const CastingScene> casting;  ///< null when no light needs it
+  std::vector<std::string> warnings;            ///< what is doubted about the pixels
   size_t badPixels = 0;                         ///< pixels whose NaN or Inf made them background
+  size_t badBeauty = 0;    ///< pixels of the beauty that hold NaN or Inf, taken as black
+  size_t badAlbedo = 0;    ///< the same of the albedo
+  size_t badCoverage = 0;  ///< pixels whose Cryptomatte coverage is NaN or Inf
 };
 
 }  // namespace kagefude

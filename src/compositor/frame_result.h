@@ -24,6 +24,7 @@ struct FrameResult {
   Vec3Plane colour;
   Floats alpha;
   std::vector<NamedPlane> layers;
+  std::vector<bool> fittingStyles;  ///< each style of the look: whether it fits something seen
   std::vector<std::string> warnings;
 };
 

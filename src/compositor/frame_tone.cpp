@@ -2,32 +2,69 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compositor/light_visibility.h"
 #include "compositor/output_layers.h"
 #include "image/parallel.h"
 #include "passes/tone/lambert.h"
+#include "passes/tone/light_reach.h"
 #include "passes/tone/merge.h"
 
 namespace kagefude {
 namespace {
 
-/// 1 - k (1 - v): how much of the light a shadow of strength k leaves (004, light sum).
-void weaken(View<float> visibility, float strength) {
-  if (strength == 1.0f) return;
+/// 1 - k (1 - v): how much of the light a shadow of strength k leaves (004, light sum). Empty where
+/// k = 1 leaves it as it is.
+Floats weakened(View<const float> visibility, float strength) {
+  if (strength == 1.0f) return {};
+  Floats weak(visibility.width, visibility.height);
   parallelRows(visibility.height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < visibility.width; ++x)
-        visibility(x, y) = 1.0f - strength * (1.0f - visibility(x, y));
+        weak(x, y) = 1.0f - strength * (1.0f - visibility(x, y));
   });
+  return weak;
 }
 
-std::vector<float> normalisedWeights(const std::vector<FrameLight>& lights) {
-  float sum = 0;
-  for (const FrameLight& light : lights) sum += light.weight;
+/// What is white: all lights together, or the heaviest where the brightest is taken.
+float whiteOf(const std::vector<FrameLight>& lights, MergeParams::Lights merge,
+              float LightWeight::*of) {
+  float white = 0;
+  for (const FrameLight& light : lights) {
+    const float own = light.weight.*of;
+    white = merge == MergeParams::Lights::sum ? white + own : std::max(white, own);
+  }
+  return white;
+}
+
+/// By what each light's tone counts. Lights that all shine away from the subject are measured on
+/// their axes; where no light gives anything, nothing does.
+std::vector<float> weightsOf(const std::vector<FrameLight>& lights, const Look& look) {
+  float white = whiteOf(lights, look.passes.merge.lights, &LightWeight::subject);
+  if (!(white > 0)) white = whiteOf(lights, look.passes.merge.lights, &LightWeight::axis);
   std::vector<float> weights;
-  for (const FrameLight& light : lights)
-    weights.push_back(sum > 0 ? light.weight / sum : 1.0f / static_cast<float>(lights.size()));
+  for (const FrameLight& light : lights) {
+    const bool irradiance = look.passes.tone.light == ToneLight::irradiance;
+    const float own = irradiance ? 1.0f : light.weight.axis * light.weight.dimming;
+    weights.push_back(white > 0 ? own / white : 0.0f);
+  }
   return weights;
+}
+
+/// Lays over a light's tone how it shines to each side and, if asked for, how far.
+void applyReach(const FrameLight& light, ToneLight counts, const FramePlanes& planes,
+                View<const uint32_t> surfaces, View<float> tone) {
+  const bool irradiance = counts == ToneLight::irradiance;
+  if (!irradiance && light.light.type != Light::Type::area) return;
+  const LightWeight& weight = light.weight;
+  const bool ahead = weight.subject > 0 && weight.axis > 0;
+  const Floats reach = lightReach(planes.position, surfaces, light.light, weight.power, irradiance,
+                                  ahead ? weight.subject / weight.axis : 1.0f);
+  parallelRows(tone.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < tone.width; ++x) tone(x, y) *= reach(x, y);
+  });
 }
 
 }  // namespace
@@ -44,8 +81,10 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
     Floats tone =
         lambertShade(planes.normal, planes.position, surfaces, light.light, light.passes.shade);
     if (sink) sink->number(fmt::format("shade of {}", light.name), tone);
-    weaken(visibility, light.strength);
-    mergeTone(visibility, tone, light.passes.merge, tone);
+    // The layers hold what was measured; only the tone takes the shadow's strength.
+    const Floats weak = weakened(visibility, light.strength);
+    mergeTone(weak.empty() ? visibility : weak, tone, light.passes.merge, tone);
+    applyReach(light, look.passes.tone.light, planes, surfaces, tone);
     tones.push_back(std::move(tone));
     lap(clock, fmt::format("shade and merge of {}", light.name));
     LayerSources sources{planes};
@@ -54,10 +93,12 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
     sources.confidence = std::move(shadow.confidence);
     takeLayers(look, LayerStage::light, sources, result);
   }
-  if (tones.size() == 1) return std::move(tones.front());
+  const std::vector<float> weights = weightsOf(plan.lights, look);
+  if (tones.size() == 1 && weights[0] == 1.0f && look.passes.tone.light == ToneLight::shade)
+    return std::move(tones.front());
   Floats sum(planes.width, planes.height);
   const std::vector<View<const float>> views(tones.begin(), tones.end());
-  combineTones(views, normalisedWeights(plan.lights), look.passes.merge, sum);
+  combineTones(views, weights, look.passes.merge, sum);
   return sum;
 }
 

@@ -78,6 +78,10 @@ MotionFrame readMotionFrame(const Look& look, const std::filesystem::path& path,
   else
     reader.floats(plan.objectId.channels.at(0), index);
   reader.read();
+  Vec3Plane noNormals;
+  convertToWorld({plan.spaces.position, VectorSpace::automatic, NormalRange::automatic, "",
+                  plan.spaces.cameraFromWorld},
+                 plan.image, result.position, noNormals);
   result.ids = index.empty() ? dominantIds(matte) : roundIndices(index);
   result.dataWindow = plan.image.dataWindow;
   result.displayWindow = plan.image.displayWindow;

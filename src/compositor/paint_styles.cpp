@@ -2,22 +2,18 @@
 
 #include <algorithm>
 
+#include "base/same_params.h"
 #include "image/parallel.h"
 
 namespace kagefude {
 namespace {
-
-bool sameParams(const BrushParams& a, const BrushParams& b) {
-  return std::all_of(std::begin(brushParameters), std::end(brushParameters),
-                     [&](const Parameter& p) { return p.get(&a) == p.get(&b); });
-}
 
 /// The number of the first anchor with the same parameters, for each anchor.
 std::vector<size_t> groupsOf(const std::vector<BrushParams>& params) {
   std::vector<size_t> groups;
   for (const BrushParams& own : params) {
     const auto first = std::find_if(params.begin(), params.end(), [&](const BrushParams& other) {
-      return sameParams(own, other);
+      return sameParams(brushParameters, own, other);
     });
     groups.push_back(static_cast<size_t>(first - params.begin()));
   }

@@ -1,10 +1,15 @@
 #include "compositor/read_frame.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
+#include "base/error.h"
 #include "compositor/casting_scene.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
+#include "frame/frame_view.h"
 #include "frame/sanitise.h"
 #include "image/parallel.h"
 
@@ -15,6 +20,7 @@ namespace {
 struct RequestedIds {
   CryptomattePlanes matte;
   Floats index;
+  Labels whole;  ///< an index pass of whole numbers, which a float would round above 2^24
 };
 
 void requestVector(ChannelReader& reader, const Aov& aov, Vec3Plane& planes) {
@@ -23,16 +29,27 @@ void requestVector(ChannelReader& reader, const Aov& aov, Vec3Plane& planes) {
   reader.floats(aov.channels.at(2), planes.z);
 }
 
+bool isWhole(const ImageFile& file, const std::string& channelName) {
+  const Channel* channel = file.findChannel(channelName);
+  return channel && channel->type == PixelType::uint;
+}
+
 void requestIds(ChannelReader& reader, const Aov& aov, IdSource source, RequestedIds& ids) {
   constexpr int dominantRanks = 2;  // ranks come by falling coverage, but for filtered files
   if (source == IdSource::cryptomatte)
     ids.matte = requestCryptomatte(reader, aov.name, dominantRanks);
+  else if (isWhole(reader.file(), aov.channels.at(0)))
+    reader.bits(aov.channels.at(0), ids.whole);
   else
     reader.floats(aov.channels.at(0), ids.index);
 }
 
-Labels idsFrom(const RequestedIds& ids, IdSource source) {
-  return source == IdSource::cryptomatte ? dominantIds(ids.matte) : roundIndices(ids.index);
+Labels idsFrom(RequestedIds& ids, IdSource source) {
+  if (source == IdSource::cryptomatte) {
+    clearNonFiniteCoverage(ids.matte.coverage);
+    return dominantIds(ids.matte);
+  }
+  return ids.whole.empty() ? roundIndices(ids.index) : std::move(ids.whole);
 }
 
 Bytes toMask(View<const float> values) {
@@ -45,7 +62,7 @@ Bytes toMask(View<const float> values) {
 }
 
 Floats readDepthMap(const DepthMapSource& source) {
-  const ImageFile image = openImage(source.file);
+  const ImageFile image = openFrame(source.file);
   std::string channel = source.channel;
   if (channel.empty() || !image.findChannel(channel))
     channel = requireAov(image, {}, AovKind::depth).channels.at(0);
@@ -61,6 +78,45 @@ void clearWithoutNormal(FramePlanes& planes) {
   });
 }
 
+/// Nothing is seen where the position's part does not reach: a cropped part is empty around it.
+void clearOutside(const FramePlan& plan, FramePlanes& planes) {
+  const Channel* channel = plan.image.findChannel(plan.position.channels.front());
+  const Window& whole = plan.image.dataWindow;
+  const Window& own = plan.image.parts[static_cast<size_t>(channel->part)].dataWindow;
+  if (own == whole) return;
+  const int left = own.x - whole.x, top = own.y - whole.y;
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x)
+        if (x < left || y < top || x >= left + own.width || y >= top + own.height)
+          planes.objectId(x, y) = 0;
+  });
+}
+
+/// A reading that the look can set stops the frame; what nothing explains is said.
+void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
+  const SpaceDoubt doubt =
+      doubtSpaces(plan.spaces, plan.image, planes.position, planes.normal, planes.objectId);
+  if (doubt.known)
+    throw InputError(fmt::format("{}: {}", plan.image.path.string(), doubt.sentence));
+  if (!doubt.sentence.empty()) planes.warnings.push_back(doubt.sentence);
+}
+
+/// Where an object is not painted, the beauty stands: cut, or with what lies behind it.
+void clearUnpainted(const FramePlan& plan, FramePlanes& planes) {
+  if (!plan.sidecar) return;
+  std::set<uint32_t> unpainted;
+  for (const SidecarObject& object : plan.sidecar->objects)
+    if (!object.painted)
+      unpainted.insert(plan.idSource == IdSource::index ? object.index : object.cryptoId);
+  if (unpainted.empty()) return;
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x)
+        if (unpainted.count(planes.objectId(x, y))) planes.objectId(x, y) = 0;
+  });
+}
+
 }  // namespace
 
 FramePlanes readFramePlanes(const FramePlan& plan) {
@@ -72,6 +128,12 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   if (plan.beauty) {
     requestVector(reader, *plan.beauty, planes.beauty);
     if (plan.beauty->channels.size() > 3) reader.floats(plan.beauty->channels[3], planes.alpha);
+  }
+  if (!plan.lines.empty()) {
+    reader.floats(plan.lines[0], planes.lines.x);
+    reader.floats(plan.lines[1], planes.lines.y);
+    reader.floats(plan.lines[2], planes.lines.z);
+    reader.floats(plan.lines[3], planes.linesAlpha);
   }
   if (plan.depth) reader.floats(plan.depth->channels.at(0), planes.depth);
   RequestedIds objects, materials;
@@ -108,8 +170,15 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   };
   if (std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene))
     planes.casting = std::make_shared<const CastingScene>(readCastingScene(plan));
+  convertToWorld(plan.spaces, plan.image, planes.position, planes.normal);
+  clearOutside(plan, planes);
+  planes.badBeauty = clearNonFiniteColour(planes.beauty, planes.alpha.view());
+  planes.badAlbedo = clearNonFiniteColour(planes.albedo);
+  planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
+  clearUnpainted(plan, planes);
+  checkSpaces(plan, planes);
   return planes;
 }
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "image/parallel.h"
+#include "image/real_math.h"
 #include "passes/strip/strip_paint.h"
 #include "picture/strip_file.h"
 
@@ -15,7 +16,28 @@ namespace kagefude {
 namespace {
 
 constexpr std::string_view builtinPrefix = "builtin:";
-constexpr std::string_view paintedSpace = "sRGB";
+/// Names under which configurations hold display-encoded sRGB pictures.
+constexpr std::string_view paintedSpaces[] = {"sRGB",
+                                              "srgb_tx",
+                                              "sRGB - Texture",
+                                              "sRGB Encoded Rec.709 (sRGB)",
+                                              "Utility - sRGB - Texture",
+                                              "Input - Generic - sRGB - Texture",
+                                              "texture_paint",
+                                              "matte_paint"};
+
+float linearFromSrgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : powerOf((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+/// From display-encoded sRGB; by its own curve where the configuration knows no such space.
+void paintedToWorking(const Colour& colour, Floats& r, Floats& g, Floats& b) {
+  for (const std::string_view space : paintedSpaces)
+    if (colour.hasSpace(space)) return colour.toWorking(r, g, b, space);
+  for (Floats* plane : {&r, &g, &b})
+    for (size_t i = 0; i < plane->view().pixels(); ++i)
+      plane->row(0)[i] = linearFromSrgb(plane->row(0)[i]);
+}
 
 Strip loadBuiltin(const Colour& colour, const std::string& preset) {
   const std::vector<std::string> names(std::begin(stripPresets), std::end(stripPresets));
@@ -23,21 +45,40 @@ Strip loadBuiltin(const Colour& colour, const std::string& preset) {
     throw LookError(fmt::format("there is no built-in strip {}{}; there are {}", preset,
                                 didYouMean(preset, names), listNames(names)));
   PaintedStrip picture = paintStrip(stripPreset(preset));
-  colour.toWorking(picture.r, picture.g, picture.b, paintedSpace);
+  paintedToWorking(colour, picture.r, picture.g, picture.b);
   return makeStrip(picture.r, picture.g, picture.b);
 }
 
+/// Multiplies or divides the colour by alpha; where alpha is 0 a quotient is 0.
+void associate(StripPicture& picture, bool divide) {
+  for (Floats* plane : {&picture.red, &picture.green, &picture.blue})
+    for (size_t i = 0; i < plane->view().pixels(); ++i) {
+      const float alpha = picture.alpha.row(0)[i];
+      float& value = plane->row(0)[i];
+      value = !divide ? value * alpha : alpha > 0.0f ? value / alpha : 0.0f;
+    }
+}
+
+/// An EXR's colour is associated with its alpha, a PNG's is not; transforms want it apart.
 Strip loadStrip(const Look& look, const Colour& colour, const std::string& name) {
   if (isBuiltinStrip(name)) return loadBuiltin(colour, name.substr(builtinPrefix.size()));
   StripPicture picture = readStrip(look.resolve(name));
-  const std::string space =
-      look.colour.strip.empty() ? std::string(paintedSpace) : look.colour.strip;
-  if (!picture.sceneLinear || !look.colour.strip.empty())
-    colour.toWorking(picture.red, picture.green, picture.blue, space);
-  return makeStrip(picture.red, picture.green, picture.blue);
+  const bool transformed = !picture.sceneLinear || !look.colour.strip.empty();
+  if (picture.hasAlpha && picture.sceneLinear && transformed) associate(picture, true);
+  if (!look.colour.strip.empty())
+    colour.toWorking(picture.red, picture.green, picture.blue, look.colour.strip);
+  else if (!picture.sceneLinear)
+    paintedToWorking(colour, picture.red, picture.green, picture.blue);
+  if (!picture.hasAlpha) return makeStrip(picture.red, picture.green, picture.blue);
+  if (transformed) associate(picture, false);
+  return makeStrip(picture.red, picture.green, picture.blue, picture.alpha);
 }
 
 }  // namespace
+
+std::string stripColourSpace(const Look& look) {
+  return look.colour.strip.empty() ? std::string(paintedSpaces[0]) : look.colour.strip;
+}
 
 bool isBuiltinStrip(const std::string& name) { return name.starts_with(builtinPrefix); }
 

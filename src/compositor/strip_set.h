@@ -31,6 +31,9 @@ class StripSet {
   std::map<std::string, int> indices_;
 };
 
+/// The space of strips that are pictures: the look's colour.strip, else sRGB.
+std::string stripColourSpace(const Look& look);
+
 /// Whether a strip's name means one that is painted by the program itself.
 bool isBuiltinStrip(const std::string& name);
 

@@ -58,6 +58,14 @@ SurfaceIndex indexSurfaces(const FramePlanes& frame) {
   return result;
 }
 
+/// Whether a name fits, whole or without the library that tells it from others: Body [cast.blend].
+bool fits(const std::string& name, const std::vector<std::string>& patterns) {
+  if (matchesAny(name, patterns)) return true;
+  const size_t library = name.rfind(" [");
+  return library != std::string::npos && name.back() == ']' &&
+         matchesAny(name.substr(0, library), patterns);
+}
+
 bool matches(const StyleParams& style, const FramePlan& plan, const Surface& surface) {
   if (style.index != 0 && plan.idSource != IdSource::cryptomatte)
     return surface.object == static_cast<uint32_t>(style.index);
@@ -65,11 +73,10 @@ bool matches(const StyleParams& style, const FramePlan& plan, const Surface& sur
     const SidecarObject* object = plan.findObject(surface.object);
     return object && object->index == static_cast<uint32_t>(style.index);
   }
-  if (!style.object.empty() && !matchesAny(plan.objectName(surface.object), style.object))
-    return false;
+  if (!style.object.empty() && !fits(plan.objectName(surface.object), style.object)) return false;
   if (!style.material.empty()) {
     const auto name = plan.materialNames.find(surface.material);
-    if (name == plan.materialNames.end() || !matchesAny(name->second, style.material)) return false;
+    if (name == plan.materialNames.end() || !fits(name->second, style.material)) return false;
   }
   return true;
 }
@@ -83,7 +90,7 @@ const FrameLight& lightFor(const FramePlan& plan, const StyleParams& style) {
   if (style.light.empty())
     return *std::max_element(
         plan.lights.begin(), plan.lights.end(),
-        [](const FrameLight& a, const FrameLight& b) { return a.weight < b.weight; });
+        [](const FrameLight& a, const FrameLight& b) { return a.weight.lead < b.weight.lead; });
   std::vector<std::string> names;
   for (const FrameLight& light : plan.lights) {
     if (light.name == style.light) return light;
@@ -98,15 +105,25 @@ struct VisibleBounds {
   V3f high{-1e30f, -1e30f, -1e30f};
 };
 
-VisibleBounds visibleBounds(const SurfaceIndex& index, size_t number, Vec3View position) {
-  VisibleBounds bounds;
+/// Bounds of what is seen of every surface, by number - 1, in one look at the frame. Empty where
+/// the JSON describes every surface, or the look says how large the scene is.
+std::vector<VisibleBounds> visibleBounds(const Look& look, const FramePlan& plan,
+                                         const SurfaceIndex& index, Vec3View position) {
+  const bool needed =
+      !look.scene.sizes() &&
+      std::any_of(index.surfaces.begin(), index.surfaces.end(),
+                  [&](const Surface& surface) { return !plan.findObject(surface.object); });
+  if (!needed) return {};
+  std::vector<VisibleBounds> bounds(index.surfaces.size());
   for (int y = 0; y < index.plane.height(); ++y)
     for (int x = 0; x < index.plane.width(); ++x) {
-      if (index.plane(x, y) != number) continue;
+      const uint16_t number = index.plane(x, y);
+      if (number == 0) continue;
+      VisibleBounds& own = bounds[number - 1u];
       const V3f p = position(x, y);
       for (int k = 0; k < 3; ++k) {
-        bounds.low[k] = std::min(bounds.low[k], p[k]);
-        bounds.high[k] = std::max(bounds.high[k], p[k]);
+        own.low[k] = std::min(own.low[k], p[k]);
+        own.high[k] = std::max(own.high[k], p[k]);
       }
     }
   return bounds;
@@ -135,11 +152,8 @@ float pixelWidthAt(const SceneParams& scene, const FramePlan& plan, const V3f& p
 }
 
 /// Bounds of an object that no sidecar describes: the look's scene, or what is seen of it.
-VisibleBounds boundsWithoutSidecar(const SceneParams& scene, const SurfaceIndex& index,
-                                   size_t number, Vec3View position) {
+VisibleBounds boundsWithoutSidecar(const SceneParams& scene, const VisibleBounds& seen) {
   const bool placed = !scene.centre.empty(), sized = scene.radius > 0.0f;
-  VisibleBounds seen;
-  if (!placed || !sized) seen = visibleBounds(index, number, position);
   const V3f centre = placed ? V3f(scene.centre[0], scene.centre[1], scene.centre[2])
                             : (seen.low + seen.high) * 0.5f;
   const V3f half = sized ? V3f(scene.radius) : (seen.high - seen.low) * 0.5f;
@@ -154,12 +168,11 @@ bool movesWithView(const StyleLook& style, const SceneParams& scene) {
 }
 
 BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const FramePlan& plan,
-                       const FrameLight& light, const SurfaceIndex& index, size_t number,
-                       const FramePlanes& frame, std::vector<std::string>& warnings) {
+                       const FrameLight& light, const Surface& surface, const VisibleBounds& seen,
+                       std::vector<std::string>& warnings) {
   const StyleParams& style = styled.style;
   BrushSubject subject;
   subject.sceneRadius = light.subjectRadius;
-  const Surface& surface = index.surfaces[number - 1];
   const SidecarObject* const object = plan.findObject(surface.object);
   if (object) {
     subject.worldFromObject = object->worldFromObject;
@@ -168,7 +181,7 @@ BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const 
     subject.hasBounds = true;
     subject.flat = object->flat;
   } else {
-    const VisibleBounds bounds = boundsWithoutSidecar(scene, index, number, frame.position);
+    const VisibleBounds bounds = boundsWithoutSidecar(scene, seen);
     subject.boundsMin = bounds.low;
     subject.boundsMax = bounds.high;
     subject.hasBounds = true;
@@ -197,22 +210,27 @@ BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const 
 StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const FramePlan& plan,
                              const FramePlanes& planes, std::vector<std::string>& warnings) {
   SurfaceIndex index = indexSurfaces(planes);
+  const std::vector<VisibleBounds> seen = visibleBounds(look, plan, index, planes.position);
   StyledSurfaces result;
   const StyleLook fallback{{}, look.passes};
+  result.fitting.resize(look.styles.size());
+  for (const Surface& surface : index.surfaces)
+    for (size_t i = 0; i < look.styles.size(); ++i)
+      if (!result.fitting[i]) result.fitting[i] = matches(look.styles[i].style, plan, surface);
   for (size_t number = 1; number <= index.surfaces.size(); ++number) {
     const StyleLook* found = styleFor(look, plan, index.surfaces[number - 1]);
     const StyleLook& style = found ? *found : fallback;
     const FrameLight& light = lightFor(plan, style.style);
-    BrushSubject subject =
-        subjectOf(style, look.scene, plan, light, index, number, planes, warnings);
+    BrushSubject subject = subjectOf(style, look.scene, plan, light, index.surfaces[number - 1],
+                                     seen.empty() ? VisibleBounds{} : seen[number - 1], warnings);
     subject.strip = strips.indexOf(style.style.strip);
     result.anchors.push_back(makeBrushAnchor(subject, light.light, style.passes.brush));
     result.brushes.push_back(style.passes.brush);
     result.tones.push_back(style.passes.tone);
     result.multiplies.push_back(multipliesColour(style.style));
     const std::vector<float>& line = style.style.outlineColour;
-    result.outlines.push_back(line.empty() ? std::nullopt
-                                           : std::optional(V3f(line[0], line[1], line[2])));
+    const auto colour = line.empty() ? std::nullopt : std::optional(V3f(line[0], line[1], line[2]));
+    result.outlines.push_back({colour, style.passes.outline});
   }
   result.anchorIndex = std::move(index.plane);
   return result;

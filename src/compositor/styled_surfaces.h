@@ -6,18 +6,26 @@
 #include "compositor/frame_plan.h"
 #include "compositor/strip_set.h"
 #include "passes/brush/brush_anchor.h"
+#include "passes/edges/outline.h"
 #include "passes/tone/tone.h"
 
 namespace kagefude {
 
+/// The outlines of one style; none without a colour.
+struct StyleOutline {
+  std::optional<V3f> colour;
+  OutlineParams params;
+};
+
 /// Which strokes every pixel gets: one anchor for each pair of object and style that is seen.
 struct StyledSurfaces {
+  std::vector<bool> fitting;    ///< each style of the look: whether it fits a surface that is seen
   Plane<uint16_t> anchorIndex;  ///< 0 = background, i -> anchors[i - 1]
   std::vector<BrushAnchor> anchors;
-  std::vector<BrushParams> brushes;  ///< per anchor
-  std::vector<ToneParams> tones;     ///< per anchor
-  std::vector<bool> multiplies;      ///< per anchor: the strip multiplies the surface's colour
-  std::vector<std::optional<V3f>> outlines;  ///< per anchor: colour of its outlines
+  std::vector<BrushParams> brushes;    ///< per anchor
+  std::vector<ToneParams> tones;       ///< per anchor
+  std::vector<bool> multiplies;        ///< per anchor: the strip multiplies the surface's colour
+  std::vector<StyleOutline> outlines;  ///< per anchor
 };
 
 /// Gives every object (and material, where styles ask) the style that matches (chooseStyle), or the

@@ -31,6 +31,7 @@ void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& resu
   image.pixelAspect = plan.image.pixelAspect;
   image.compression = look.output.compression;
   image.source = &plan.image;
+  image.allParts = look.output.passthrough;
   image.attributes = attributes;
   const PixelType colour =
       look.output.colour == PixelKind::half ? PixelType::half : PixelType::single;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "exr/fast_chunks.h"
+#include "exr/header_claims.h"
 
 namespace kagefude {
 namespace {
@@ -137,6 +138,7 @@ std::optional<FastExr> FastExr::open(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
   const auto fileBytes = static_cast<int64_t>(std::filesystem::file_size(path, error));
   if (error) return std::nullopt;
+  checkHeaderClaims(path, static_cast<uint64_t>(fileBytes));
 
   exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
   settings.error_handler_fn = ignoreMessage;

@@ -9,9 +9,13 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <numeric>
 #include <set>
 
 #include "base/error.h"
+#include "base/plain_file.h"
+#include "exr/header_claims.h"
 
 namespace kagefude {
 namespace {
@@ -76,6 +80,7 @@ Part describePart(const std::filesystem::path& path, const Imf::Header& header,
   }
   Part part;
   part.name = header.hasName() ? header.name() : "";
+  part.view = header.hasView() ? header.view() : "";
   part.dataWindow = windowOf(header.dataWindow());
   part.compression = nameOf(header.compression());
   part.tiled = header.hasTileDescription();
@@ -84,19 +89,65 @@ Part describePart(const std::filesystem::path& path, const Imf::Header& header,
   return part;
 }
 
-void addChannels(ImageFile& file, const Imf::Header& header, int part,
-                 std::set<std::string>& used) {
-  const std::string& layer = file.parts[static_cast<size_t>(part)].name;
-  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
-    const std::string inPart = c.name();
-    std::string name = inPart;
-    const bool bare = inPart.find('.') == std::string::npos;
-    const bool taken = used.contains(name);
-    if (part > 0 && !layer.empty() && (bare || taken)) name = layer + "." + inPart;
-    if (used.contains(name)) name = fmt::format("part{}.{}", part, inPart);
-    used.insert(name);
-    file.channels.push_back({name, inPart, typeOf(c.channel().type), part});
+bool isSeparator(char c) { return c == '.' || c == '_' || c == '-' || c == ' '; }
+
+// A part's name without the view that its header gives: "rgba.right", "right_rgba" and "rgba" of
+// view right are all "rgba", "right" is "".
+std::string withoutView(const std::string& name, const std::string& view) {
+  if (view.empty() || name == view) return view.empty() ? name : "";
+  const size_t rest = name.size() - std::min(name.size(), view.size() + 1);
+  if (rest > 0 && name.ends_with(view) && isSeparator(name[rest])) return name.substr(0, rest);
+  if (rest > 0 && name.starts_with(view) && isSeparator(name[view.size()]))
+    return name.substr(view.size() + 1);
+  return name;
+}
+
+// "N.X" of view right is "N.right.X"; names that say their view already stay.
+std::string withView(const std::string& name, const std::string& view) {
+  const auto dotted = "." + name + ".";
+  if (dotted.find("." + view + ".") != std::string::npos) return name;
+  const size_t dot = name.rfind('.');
+  if (dot == std::string::npos) return view + "." + name;
+  return name.substr(0, dot) + "." + view + name.substr(dot);
+}
+
+void addPartChannels(ImageFile& file, const Imf::Header& header, int part) {
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+    file.channels.push_back({c.name(), c.name(), typeOf(c.channel().type), part});
+}
+
+// Gives every channel its layer from its part, its view, and last a number where that leaves two
+// of one name.
+void nameChannels(ImageFile& file) {
+  if (file.parts.size() < 2) return;
+  std::map<std::pair<std::string, std::string>, int> uses;
+  const auto partOf = [&](const Channel& c) -> const Part& {
+    return file.parts[static_cast<size_t>(c.part)];
+  };
+  for (const Channel& c : file.channels) ++uses[{partOf(c).view, c.name}];
+  std::set<std::string> used;
+  for (Channel& c : file.channels) {
+    const Part& part = partOf(c);
+    const std::string layer = withoutView(part.name, part.view);
+    const size_t dot = c.nameInPart.rfind('.');
+    const bool bare = dot == std::string::npos ||
+                      (dot == part.view.size() && c.nameInPart.starts_with(part.view));
+    if (!layer.empty() && (bare || uses[{part.view, c.nameInPart}] > 1))
+      c.name = layer + "." + c.nameInPart;
+    if (!part.view.empty() && part.view != file.parts.front().view)
+      c.name = withView(c.name, part.view);
+    if (used.contains(c.name)) c.name = fmt::format("part{}.{}", c.part, c.nameInPart);
+    used.insert(c.name);
   }
+}
+
+Window join(const Window& a, const Window& b) {
+  const int64_t x = std::min(a.x, b.x), y = std::min(a.y, b.y);
+  const int64_t right = std::max(int64_t{a.x} + a.width, int64_t{b.x} + b.width);
+  const int64_t bottom = std::max(int64_t{a.y} + a.height, int64_t{b.y} + b.height);
+  constexpr int64_t most = INT32_MAX;
+  return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(std::min(right - x, most)),
+          static_cast<int>(std::min(bottom - y, most))};
 }
 
 }  // namespace
@@ -126,34 +177,41 @@ void checkClaim(const std::filesystem::path& path, int64_t width, int64_t height
 }
 
 ImageFile openImage(const std::filesystem::path& path) {
-  std::error_code problem;
-  const uint64_t fileBytes = std::filesystem::file_size(path, problem);
-  if (problem) {
-    throw InputError(fmt::format("{} cannot be read: {}", path.string(), problem.message()));
-  }
+  const uint64_t fileBytes = requirePlainFile(path);
+  checkHeaderClaims(path, fileBytes);
   ImageFile file;
   file.path = path;
   auto headers = std::make_shared<std::vector<Imf::Header>>(readHeaders(path));
-  std::set<std::string> used;
   for (size_t i = 0; i < headers->size(); ++i) {
     file.parts.push_back(describePart(path, (*headers)[i], fileBytes));
-    addChannels(file, (*headers)[i], static_cast<int>(i), used);
+    addPartChannels(file, (*headers)[i], static_cast<int>(i));
   }
+  nameChannels(file);
   constexpr size_t mostChannels = 4096;
   if (file.channels.size() > mostChannels) {
     throw InputError(fmt::format("{} has {} channels; at most {} are allowed", path.string(),
                                  file.channels.size(), mostChannels));
   }
   if (file.channels.empty()) throw InputError(fmt::format("{} has no channels", path.string()));
-  const Imf::Header& first = headers->front();
-  file.dataWindow = file.parts.front().dataWindow;
-  file.displayWindow = windowOf(first.displayWindow());
+  file.headers = std::move(headers);
+  file.ownParts.resize(file.parts.size());
+  std::iota(file.ownParts.begin(), file.ownParts.end(), 0);
+  describeOwnParts(file);
+  // One plane of the joined window: parts that lie far apart claim what none of them does.
+  if (file.parts.size() > 1) checkClaim(path, file.width, file.height, 4, fileBytes);
+  return file;
+}
+
+void describeOwnParts(ImageFile& file) {
+  const Part& first = file.parts[static_cast<size_t>(file.ownParts.front())];
+  file.dataWindow = first.dataWindow;
+  for (const int part : file.ownParts)
+    file.dataWindow = join(file.dataWindow, file.parts[static_cast<size_t>(part)].dataWindow);
   file.width = file.dataWindow.width;
   file.height = file.dataWindow.height;
-  file.pixelAspect = first.pixelAspectRatio();
-  file.compression = file.parts.front().compression;
-  file.headers = std::move(headers);
-  return file;
+  file.compression = first.compression;
+  file.displayWindow = windowOf(file.leadingHeader().displayWindow());
+  file.pixelAspect = file.leadingHeader().pixelAspectRatio();
 }
 
 const Channel* ImageFile::findChannel(std::string_view name) const {
@@ -169,22 +227,29 @@ std::vector<std::string> ImageFile::channelNames() const {
 }
 
 std::optional<std::string> ImageFile::text(std::string_view attribute) const {
-  for (const Imf::Header& header : *headers) {
-    const auto* found =
-        header.findTypedAttribute<Imf::StringAttribute>(std::string(attribute).c_str());
-    if (found) return found->value();
-  }
+  for (const int part : ownParts)
+    if (auto found = textOfPart(part, attribute)) return found;
   return std::nullopt;
 }
 
-std::vector<std::string> ImageFile::textNames() const {
-  std::set<std::string> names;
-  for (const Imf::Header& header : *headers) {
-    for (auto a = header.begin(); a != header.end(); ++a) {
-      if (dynamic_cast<const Imf::StringAttribute*>(&a.attribute())) names.insert(a.name());
-    }
-  }
-  return {names.begin(), names.end()};
+std::optional<std::string> ImageFile::textOfPart(int part, std::string_view attribute) const {
+  const Imf::Header& header = (*headers)[static_cast<size_t>(part)];
+  const auto* found =
+      header.findTypedAttribute<Imf::StringAttribute>(std::string(attribute).c_str());
+  return found ? std::optional(found->value()) : std::nullopt;
+}
+
+std::vector<std::string> ImageFile::textNames(int part) const {
+  std::vector<std::string> names;
+  const Imf::Header& header = (*headers)[static_cast<size_t>(part)];
+  for (auto a = header.begin(); a != header.end(); ++a)
+    if (dynamic_cast<const Imf::StringAttribute*>(&a.attribute())) names.emplace_back(a.name());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+const Imf::Header& ImageFile::leadingHeader() const {
+  return (*headers)[static_cast<size_t>(ownParts.front())];
 }
 
 }  // namespace kagefude

@@ -19,9 +19,11 @@ enum class PixelType { half, single, uint };
 /// "half", "float" or "uint".
 std::string_view pixelTypeName(PixelType type);
 
-/// One channel of a file. `name` is unique in the file: in a multi-part file a channel without a
-/// layer (no dot) takes its part's name as its layer, except in the first part, and so does one
-/// whose name an earlier part has used up. `nameInPart` is what the file itself says.
+/// One channel of a file. `name` is unique in the file: in a file of several parts a channel
+/// without a layer (no dot) takes its part's name, less its view, as its layer, and so does one
+/// whose name several parts have. Where a part's header names another view than the first part's,
+/// the view stands before the last component ("N.right.X"), as in a file of one part. `nameInPart`
+/// is what the file itself says.
 struct Channel {
   std::string name;
   std::string nameInPart;
@@ -32,13 +34,15 @@ struct Channel {
 /// One part of a file. Files with a single part have one of these, mostly without a name.
 struct Part {
   std::string name;
+  std::string view;  ///< as its header says; "" when it says nothing
   Window dataWindow;
   std::string compression;  ///< none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa or dwab
   bool tiled = false;
 };
 
-/// The headers of an EXR file, and nothing of its pixels. The windows, the codec and the metadata
-/// are those of the first part; other parts may have other data windows, see `parts`.
+/// The headers of an EXR file, and nothing of its pixels. The display window, the codec and the
+/// metadata are those of the first part that belongs to it; the data window covers those of all
+/// that do, for parts may be cropped each to its own (see `parts`).
 struct ImageFile {
   std::filesystem::path path;
   int width = 0;   ///< of the data window
@@ -48,24 +52,36 @@ struct ImageFile {
   float pixelAspect = 1.0f;
   std::string compression;
   std::vector<Part> parts;
-  std::vector<Channel> channels;  ///< in file order, part by part
+  std::vector<Channel> channels;   ///< in file order, part by part
+  std::vector<int> ownParts;       ///< parts whose channels and headers count, in order
+  std::vector<std::string> views;  ///< after takeView: all that the file has, the default first
+  std::string view;                ///< after takeView: the one that this is; "" without views
+  bool viewTaken = false;          ///< names hold no view any more
   std::shared_ptr<const std::vector<Imf::Header>> headers;
 
   /// The channel of that exact name, or null.
   const Channel* findChannel(std::string_view name) const;
   /// All channel names, in file order.
   std::vector<std::string> channelNames() const;
-  /// A text attribute of any part's header (the first that has it), or nothing.
+  /// A text attribute of any own part's header (the first that has it), or nothing.
   std::optional<std::string> text(std::string_view attribute) const;
-  /// The names of all text attributes of all parts, sorted, each once.
-  std::vector<std::string> textNames() const;
+  /// The same of one part, without looking at the others.
+  std::optional<std::string> textOfPart(int part, std::string_view attribute) const;
+  /// The names of all text attributes of one part, sorted.
+  std::vector<std::string> textNames(int part) const;
+  /// The header whose metadata an output carries on: the first own part's.
+  const Imf::Header& leadingHeader() const;
 };
 
 /// Reads the headers of all parts of an EXR file. Throws InputError, one sentence with the file's
 /// name, when it is missing, not an EXR file, damaged, deep, has subsampled channels, or claims
-/// more pixels than its bytes can hold (see checkClaim). Nothing that depends on the claimed size
-/// is allocated before that check. Cost: the header, plus 8 bytes a chunk.
+/// more pixels than its bytes can hold (see checkClaim), in a part or in the window that joins
+/// them. Nothing that depends on the claimed size is allocated before that check. Cost: the header,
+/// plus 8 bytes a chunk.
 ImageFile openImage(const std::filesystem::path& path);
+
+/// Sets the data window to what covers the own parts' windows, and what is the first own part's.
+void describeOwnParts(ImageFile& file);
 
 /// Refuses absurd sizes with an InputError: sides of 0 or above 2^17, more than 2^30 pixels, or
 /// more raw bytes than the best compression could have packed into `fileBytes` (2,000 to one, where

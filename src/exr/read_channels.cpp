@@ -35,7 +35,7 @@ const Channel& requireChannel(const ImageFile& file, const std::string& name) {
       fmt::format("{} has no channel {}{}", file.path.string(), name, didYouMean(name, names)));
 }
 
-Window windowOf(const ImageFile& file, const Channel& channel) {
+const Window& windowOf(const ImageFile& file, const Channel& channel) {
   return file.parts[static_cast<size_t>(channel.part)].dataWindow;
 }
 
@@ -130,6 +130,38 @@ void copyPlane(const PlaneTarget& from, const PlaneTarget& to, size_t pixels) {
   }
 }
 
+size_t bytesOf(PixelType type) { return type == PixelType::half ? 2 : 4; }
+
+// Lays a part's own window into a plane of the file's, with zeros around it.
+void placePlane(const ImageFile& file, const PlaneTarget& own, const PlaneTarget& whole) {
+  const Window& from = windowOf(file, *own.channel);
+  const Window& to = file.dataWindow;
+  const size_t bytes = bytesOf(own.type);
+  const auto* source = static_cast<const std::byte*>(own.pixels);
+  auto* target = static_cast<std::byte*>(whole.pixels);
+  const size_t sourceRow = static_cast<size_t>(from.width) * bytes;
+  const size_t targetRow = static_cast<size_t>(to.width) * bytes;
+  std::memset(target, 0, targetRow * static_cast<size_t>(to.height));
+  target +=
+      static_cast<size_t>(from.y - to.y) * targetRow + static_cast<size_t>(from.x - to.x) * bytes;
+  for (int y = 0; y < from.height; ++y, source += sourceRow, target += targetRow)
+    std::memcpy(target, source, sourceRow);
+}
+
+// Reads into planes of the file's data window. Parts that cover all of it go there straight.
+void readJoined(const ImageFile& file, std::span<const PlaneTarget> targets) {
+  std::vector<PlaneTarget> own(targets.begin(), targets.end());
+  std::vector<std::pair<size_t, std::vector<std::byte>>> cropped;
+  for (size_t i = 0; i < own.size(); ++i) {
+    const Window& window = windowOf(file, *own[i].channel);
+    if (window == file.dataWindow) continue;
+    cropped.emplace_back(i, static_cast<size_t>(window.pixels()) * bytesOf(own[i].type));
+    own[i].pixels = cropped.back().second.data();
+  }
+  readPlanes(file, own);
+  for (const auto& entry : cropped) placePlane(file, own[entry.first], targets[entry.first]);
+}
+
 }  // namespace
 
 void readPlanes(const ImageFile& file, std::span<const PlaneTarget> targets) {
@@ -151,31 +183,16 @@ void readPlanes(const ImageFile& file, std::span<const PlaneTarget> targets) {
   }
 }
 
-Window ChannelReader::claim(const std::string& channelName, const Channel*& channel) {
-  channel = &requireChannel(file_, channelName);
-  const Window own = windowOf(file_, *channel);
-  if (targets_.empty()) return own;
-  const Channel& other = *targets_.front().channel;
-  const Window first = windowOf(file_, other);
-  if (own == first) return own;
-  throw InputError(
-      fmt::format("{} has channels of different data windows: {} covers {} x {} pixels from ({}, "
-                  "{}), {} covers "
-                  "{} x {} from ({}, {})",
-                  file_.path.string(), other.name, first.width, first.height, first.x, first.y,
-                  channel->name, own.width, own.height, own.x, own.y));
-}
-
 void ChannelReader::floats(const std::string& channelName, Floats& plane) {
-  const Channel* channel = nullptr;
-  const Window window = claim(channelName, channel);
+  const Channel* channel = &requireChannel(file_, channelName);
+  const Window& window = file_.dataWindow;
   plane = Floats(window.width, window.height);
   targets_.push_back({channel, PixelType::single, plane.row(0)});
 }
 
 void ChannelReader::bits(const std::string& channelName, Labels& plane) {
-  const Channel* channel = nullptr;
-  const Window window = claim(channelName, channel);
+  const Channel* channel = &requireChannel(file_, channelName);
+  const Window& window = file_.dataWindow;
   if (channel->type == PixelType::half) {
     throw InputError(
         fmt::format("{} stores the id channel {} as half float, which destroys ids; render or "
@@ -187,8 +204,8 @@ void ChannelReader::bits(const std::string& channelName, Labels& plane) {
 }
 
 void ChannelReader::raw(const std::string& channelName, RawPlane& plane) {
-  const Channel* channel = nullptr;
-  const Window window = claim(channelName, channel);
+  const Channel* channel = &requireChannel(file_, channelName);
+  const Window& window = file_.dataWindow;
   plane.name = channel->name;
   plane.type = channel->type;
   void* pixels = nullptr;
@@ -217,9 +234,9 @@ void ChannelReader::read() {
       copies.emplace_back(known->second, target);
     }
   }
-  readPlanes(file_, unique);
+  readJoined(file_, unique);
   for (const auto& [from, to] : copies) {
-    copyPlane(from, to, static_cast<size_t>(windowOf(file_, *from.channel).pixels()));
+    copyPlane(from, to, static_cast<size_t>(file_.dataWindow.pixels()));
   }
   targets_.clear();
 }

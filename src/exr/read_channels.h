@@ -9,10 +9,10 @@
 
 namespace kagefude {
 
-// All readers decode only what is asked for, straight into planes of the data window's size (its
-// top-left pixel is (0,0)). All throw InputError when a channel does not exist (naming the
-// nearest), when the channels asked for together lie in parts whose data windows differ, or when
-// the file is truncated or damaged. An empty list gives an empty result.
+// All readers decode only what is asked for, straight into planes of the file's data window's size
+// (its top-left pixel is (0,0)); a channel whose part covers less is 0 around it. All throw
+// InputError when a channel does not exist (naming the nearest) or when the file is truncated or
+// damaged. An empty list gives an empty result.
 
 /// One plane a name, in the order of the names. half and uint become float; half exactly, uint
 /// rounded to the nearest float above 2^24.
@@ -36,7 +36,7 @@ struct RawPlane {
 };
 std::vector<RawPlane> readRaw(const ImageFile& file, std::span<const std::string> channelNames);
 
-/// A channel and the plane it goes to: `pixels` has room for the channel's whole data window, of
+/// A channel and the plane it goes to: `pixels` has room for its part's whole data window, of
 /// 2 bytes a pixel when `type` is half, else 4. `type` is the channel's own, or single.
 struct PlaneTarget {
   const Channel* channel = nullptr;
@@ -58,8 +58,6 @@ class ChannelReader {
   const ImageFile& file() const { return file_; }
 
  private:
-  Window claim(const std::string& channelName, const Channel*& channel);
-
   const ImageFile& file_;
   std::vector<PlaneTarget> targets_;
 };
@@ -67,8 +65,8 @@ class ChannelReader {
 /// Index plane of float values: rounded to the nearest; negative, NaN and above 2^32 - 1 give 0.
 Labels roundIndices(View<const float> values);
 
-/// Decodes all targets; the one place where pixels of frames are read. The targets' data windows
-/// have been checked to agree. Throws InputError.
+/// Decodes all targets, each in its own part's window; the one place where pixels of frames are
+/// read. Throws InputError.
 void readPlanes(const ImageFile& file, std::span<const PlaneTarget> targets);
 
 }  // namespace kagefude

@@ -15,30 +15,12 @@
 #include "base/atomic_file.h"
 #include "base/error.h"
 #include "exr/attributes.h"
+#include "exr/carry_attributes.h"
 #include "exr/fast_write.h"
 #include "image/parallel.h"
 
 namespace kagefude {
 namespace {
-
-// Attributes that say how the source was stored rather than what it shows.
-const std::set<std::string_view> storageAttributes = {"channels",
-                                                      "compression",
-                                                      "dataWindow",
-                                                      "displayWindow",
-                                                      "lineOrder",
-                                                      "tiles",
-                                                      "type",
-                                                      "chunkCount",
-                                                      "name",
-                                                      "version",
-                                                      "multiView",
-                                                      "preview",
-                                                      "pixelAspectRatio",
-                                                      "envmap",
-                                                      "maxSamplesPerPixel",
-                                                      "deepImageState",
-                                                      "dwaCompressionLevel"};
 
 class Stream : public Imf::OStream {
  public:
@@ -150,12 +132,7 @@ Imf::Header makeHeader(const OutputImage& image) {
                                                       Imf::PIZ_COMPRESSION};
   Imf::Header header(boxOf(image.displayWindow), boxOf(image.dataWindow), image.pixelAspect);
   header.compression() = codecs[static_cast<size_t>(image.compression)];
-  if (image.source) {
-    const Imf::Header& from = image.source->headers->front();
-    for (auto a = from.begin(); a != from.end(); ++a) {
-      if (!storageAttributes.contains(a.name())) header.insert(a.name(), a.attribute());
-    }
-  }
+  if (image.source) detail::carryAttributes(*image.source, image.allParts, header);
   for (const auto& [name, value] : image.attributes) {
     header.erase(name);
     header.insert(name, Imf::StringAttribute(value));

@@ -30,9 +30,11 @@ OutputChannel floatChannel(std::string name, PixelType type, View<const float> v
 OutputChannel labelChannel(std::string name, View<const uint32_t> labels);
 OutputChannel rawChannel(const RawPlane& plane, std::string name = "");
 
-/// An image to be written. With `source`, all header attributes of the source's first part that
+/// An image to be written. With `source`, all header attributes of the source's first own part that
 /// describe the picture (camera, time code, fps, view, Cryptomatte, unknown ones) are carried over
-/// bit for bit; those that describe storage are not. `attributes` are set after that, as text.
+/// bit for bit; those that describe storage are not. With `allParts` those of its other own parts
+/// follow: under their names where these are free, as "<part>/<name>" where an earlier part says
+/// something else. `attributes` are set after that, as text.
 struct OutputImage {
   Window dataWindow;
   Window displayWindow;
@@ -40,6 +42,7 @@ struct OutputImage {
   Compression compression = Compression::zip;
   std::vector<OutputChannel> channels;
   const ImageFile* source = nullptr;
+  bool allParts = false;
   std::map<std::string, std::string> attributes;
 };
 

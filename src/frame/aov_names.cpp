@@ -56,7 +56,18 @@ constexpr std::string_view otherPasses[] = {"mist",
                                             "debugsamplecount",
                                             "denoisingdepth",
                                             "shadowcatcher",
-                                            "cryptoasset"};
+                                            "cryptoasset",
+                                            "diffuse",
+                                            "diffusedirect",
+                                            "diffuseindirect",
+                                            "specular",
+                                            "reflection",
+                                            "refraction",
+                                            "transmission",
+                                            "emission",
+                                            "lighting",
+                                            "sss",
+                                            "background"};
 
 Names namesOf(AovKind kind) {
   switch (kind) {

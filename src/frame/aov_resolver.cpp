@@ -69,25 +69,8 @@ std::vector<PassChannels> cryptomattePasses(const ImageFile& file) {
   return passes;
 }
 
-// The passes of the wanted view: the named one, else the default one, else the first.
-std::vector<PassChannels> passesOfView(const ImageFile& file, const std::string& view) {
-  std::vector<PassChannels> kept;
-  for (PassChannels& pass : listPasses(file)) {
-    if (!view.empty() && !pass.view.empty() && pass.view != view) continue;
-    const auto twin = std::find_if(kept.begin(), kept.end(), [&](const PassChannels& other) {
-      return other.layer == pass.layer && other.pass == pass.pass;
-    });
-    if (twin == kept.end()) {
-      kept.push_back(std::move(pass));
-    } else if (pass.view == view) {
-      *twin = std::move(pass);
-    }
-  }
-  return kept;
-}
-
-std::vector<PassChannels> candidatesOf(const ImageFile& file, const AovNames& names, AovKind kind) {
-  return isCryptomatte(kind) ? cryptomattePasses(file) : passesOfView(file, names.view);
+std::vector<PassChannels> candidatesOf(const ImageFile& file, AovKind kind) {
+  return isCryptomatte(kind) ? cryptomattePasses(file) : listPasses(file);
 }
 
 Aov finish(const ImageFile& file, AovKind kind, const PassChannels& pass) {
@@ -123,6 +106,18 @@ const PassChannels* bestIn(const std::vector<PassChannels>& passes, const std::s
   return best;
 }
 
+// The bare colour of the frame's first part where the part's name says nothing to us: what every
+// viewer shows as the picture.
+const PassChannels* firstPicture(const ImageFile& file, const std::vector<PassChannels>& passes) {
+  for (const PassChannels& pass : passes) {
+    const Channel& channel = *file.findChannel(pass.channels.front());
+    if (channel.part == file.ownParts.front() && plainName(channel.nameInPart) == "r" &&
+        pass.channels.size() >= 3 && !isKnownPass(pass.pass))
+      return &pass;
+  }
+  return nullptr;
+}
+
 template <class Keep>
 void keepIfAny(std::vector<std::string>& layers, const Keep& keep) {
   std::vector<std::string> kept;
@@ -146,7 +141,7 @@ std::optional<std::string> chooseLayer(const ImageFile& file, const AovNames& na
     keepIfAny(layers, [](const std::string& layer) { return layer.empty(); });
     keepIfAny(layers, [](const std::string& layer) { return plainName(layer) == "beauty"; });
   }
-  const auto passes = passesOfView(file, names.view);
+  const auto passes = listPasses(file);
   keepIfAny(layers, [&](const std::string& layer) {
     return hasPass(passes, layer, AovKind::position) && hasPass(passes, layer, AovKind::normal);
   });
@@ -193,8 +188,32 @@ std::string describeLayers(const std::vector<PassChannels>& passes, const std::s
   return fmt::format("layers: {}; {}: {}", listNames(layers), place, listNames(inLayer));
 }
 
+// Passes with enough channels for a kind that no table knows: what it may go by here.
+std::vector<std::string> unknownPasses(const std::vector<PassChannels>& passes,
+                                       const std::string& layer, AovKind kind) {
+  std::vector<std::string> names;
+  for (const PassChannels& pass : passes) {
+    const bool fits = pass.channels.size() >= rowOf(kind).fewest &&
+                      pass.channels.size() <= rowOf(kind).most && !isCryptomatte(kind);
+    if (fits && !pass.pass.empty() && !isKnownPass(pass.pass) && !isHelperLayer(fullName(pass)) &&
+        (layer.empty() || pass.layer == layer))
+      names.push_back(fullName(pass));
+  }
+  return names;
+}
+
+// The layer whose passes an error lists: the given one, else where the data seems to be.
+std::string layerToDescribe(const std::vector<PassChannels>& passes, const std::string& given) {
+  if (!given.empty()) return given;
+  for (const AovKind kind : {AovKind::position, AovKind::normal, AovKind::depth})
+    for (const PassChannels& pass : passes)
+      if (aliasRank(kind, pass.pass) >= 0 && !isHelperLayer(pass.layer)) return pass.layer;
+  const auto layers = listLayers(passes);
+  return layers.empty() ? "" : layers.front();
+}
+
 [[noreturn]] void reportMissing(const ImageFile& file, const AovNames& names, AovKind kind) {
-  const auto passes = passesOfView(file, names.view);
+  const auto passes = listPasses(file);
   const auto layers = listLayers(passes);
   const std::string& given =
       kind == AovKind::beauty && !names.beautyLayer.empty() ? names.beautyLayer : names.layer;
@@ -202,16 +221,16 @@ std::string describeLayers(const std::vector<PassChannels>& passes, const std::s
     throw InputError(fmt::format("{} has no layer {}{} (layers: {})", file.path.string(), given,
                                  didYouMean(given, layers), listNames(layers)));
   }
-  std::string layer = given;
-  if (layer.empty() && !layers.empty() && bestIn(passes, "", AovKind::position) == nullptr) {
-    layer = layers.front();
-  }
+  const std::vector<std::string> candidates = unknownPasses(passes, given, kind);
   std::vector<std::string> known;
   for (const PassChannels& pass : passes) known.push_back(pass.pass);
+  const std::string unknown =
+      candidates.empty() ? "" : fmt::format("; not known by name: {}", listNames(candidates));
   throw InputError(
-      fmt::format("{} has no {} pass{} ({}); turn it on in the exporter or name it with {}",
+      fmt::format("{} has no {} pass{} ({}{}); turn it on in the exporter or name it with {}{}",
                   file.path.string(), aovName(kind), didYouMean(aovName(kind), known),
-                  describeLayers(passes, layer), aovKey(kind)));
+                  describeLayers(passes, layerToDescribe(passes, given)), unknown, aovKey(kind),
+                  candidates.empty() ? "" : fmt::format(" = \"{}\"", candidates.front())));
 }
 
 }  // namespace
@@ -223,12 +242,13 @@ std::string_view aovName(AovKind kind) { return rowOf(kind).name; }
 std::string aovKey(AovKind kind) { return fmt::format("frame.{}", rowOf(kind).key); }
 
 std::optional<Aov> findAov(const ImageFile& file, const AovNames& names, AovKind kind) {
-  const auto candidates = candidatesOf(file, names, kind);
+  const auto candidates = candidatesOf(file, kind);
   if (!names.of(kind).empty()) return findNamed(file, names, kind, candidates);
   const bool beauty = kind == AovKind::beauty;
   std::optional<std::string> layer = beauty ? names.beautyLayer : names.layer;
   if (layer->empty()) layer = chooseLayer(file, names, kind, candidates);
   const PassChannels* found = layer ? bestIn(candidates, *layer, kind) : nullptr;
+  if (!found && beauty && layer.value_or("").empty()) found = firstPicture(file, candidates);
   if (!found) return std::nullopt;
   return finish(file, kind, *found);
 }
@@ -249,6 +269,7 @@ std::string requireMaskChannel(const ImageFile& file, const std::string& layer) 
     if (pass.layer == layer) inLayer.push_back(&pass);
   }
   if (inLayer.size() == 1) return inLayer.front()->channels.front();
+  if (file.findChannel(layer)) return layer;
   const auto layers = listLayers(passes);
   if (!inLayer.empty()) {
     throw InputError(fmt::format("{} has no Shadow pass in layer {} ({}); export the masks again",

@@ -25,6 +25,13 @@ enum class AovKind {
   surface
 };
 
+/// How a pass of vectors is to be read: `automatic` is world space, and doubted where the
+/// positions' slopes and the normals do not agree.
+enum class VectorSpace { automatic, world, camera };
+inline constexpr std::string_view vectorSpaceNames[] = {"auto", "world", "camera"};
+enum class NormalRange { automatic, symmetric, unit };
+inline constexpr std::string_view normalRangeNames[] = {"auto", "-1..1", "0..1"};
+
 /// What the look (section `frame`) says about a frame's names; empty means: find it. A pass may be
 /// named with its layer ("fg.Position"), without ("Position", then `layer` applies), or by a single
 /// channel ("fg.Depth.Z").
@@ -35,6 +42,10 @@ struct AovNames {
   std::string position, normal, depth, objectIndex, materialIndex, vector, albedo, beauty, shadow;
   std::string cryptoObject, cryptoMaterial;
   std::string surface;  ///< surface ids made elsewhere; has no name of its own to be found by
+  VectorSpace positionSpace = VectorSpace::automatic;
+  VectorSpace normalSpace = VectorSpace::automatic;
+  NormalRange normalRange = NormalRange::automatic;
+  std::string normalAxes;
 
   const std::string& of(AovKind kind) const;
 };
@@ -57,6 +68,17 @@ inline constexpr Parameter aovNamesParameters[] = {
     plain<&AovNames::cryptoObject>("crypto_object", "Cryptomatte of objects"),
     plain<&AovNames::cryptoMaterial>("crypto_material", "Cryptomatte of materials"),
     plain<&AovNames::surface>("surface", "surface ids made elsewhere; taken instead of objects"),
+    choice<&AovNames::positionSpace>("position_space", vectorSpaceNames,
+                                     "space of the positions; auto takes world and stops where "
+                                     "they are seen to be the camera's"),
+    choice<&AovNames::normalSpace>("normal_space", vectorSpaceNames,
+                                   "space of the normals; auto takes world and stops where they "
+                                   "do not fit the positions but the camera's would"),
+    choice<&AovNames::normalRange>("normal_range", normalRangeNames,
+                                   "values of a normal's components; 0..1 is decoded"),
+    plain<&AovNames::normalAxes>("normal_axes",
+                                 "which components of the pass are x, y and z, such as x -z y; "
+                                 "empty: x y z"),
 };
 inline constexpr ParameterTable aovNamesTable{
     "frame", "names the passes of frames from other renderers; empty names are found", "kagefude",
@@ -92,10 +114,10 @@ std::vector<std::string> listLayers(const std::vector<PassChannels>& passes);
 /// `names` gives; without one, in the one layer that has the pass, and among several in the one
 /// that also has Position and Normal. Layers named mask.* and truth.* count only if there is no
 /// other. The beauty: in `beautyLayer`, else in `layer`, else bare R G B A, else in a layer named
-/// beauty, else as above. Without `view` the default view (no view in the name) is meant, else the
-/// first in the file. Nothing when no pass fits. Throws InputError when an override names nothing,
-/// when layers stay ambiguous, or when a pass has too few channels. Channels beyond what the kind
-/// needs are left out.
+/// beauty, else as above, else the bare colour of a first part whose name is no pass that we know.
+/// Views are no matter here: openFrame has taken one. Nothing when no pass fits. Throws InputError
+/// when an override names nothing, when layers stay ambiguous, or when a pass has too few channels.
+/// Channels beyond what the kind needs are left out.
 std::optional<Aov> findAov(const ImageFile& file, const AovNames& names, AovKind kind);
 
 /// As findAov, but a missing pass is an InputError that lists layers and passes, names the nearest,
@@ -103,8 +125,8 @@ std::optional<Aov> findAov(const ImageFile& file, const AovNames& names, AovKind
 Aov requireAov(const ImageFile& file, const AovNames& names, AovKind kind);
 
 /// The one channel of a shadow mask or truth layer ("mask.Key.0"): the first of its Shadow pass,
-/// else of its only pass, else of the pass by that full name. Throws InputError naming the nearest
-/// layer.
+/// else of the pass by that full name, else of its only pass, else the channel of that name
+/// ("MultiMatte.R"). Throws InputError naming the nearest layer or channel.
 std::string requireMaskChannel(const ImageFile& file, const std::string& layer);
 
 /// Everyday name of a kind as messages use it ("Position"), and the look's key ("frame.position").

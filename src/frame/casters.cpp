@@ -4,11 +4,12 @@
 #include <tiny_obj_loader.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/folder_bound.h"
+#include "base/plain_file.h"
+#include "frame/json_reader.h"
 
 namespace kagefude {
 namespace {
@@ -17,21 +18,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr uintmax_t largestFile = uintmax_t{1} << 30;
-
-std::string readText(const fs::path& path, const char* what) {
-  std::error_code error;
-  const uintmax_t size = fs::file_size(path, error);
-  if (error)
-    throw InputError(fmt::format("{}: cannot read {}: {}", path.string(), what, error.message()));
-  if (size > largestFile)
-    throw InputError(fmt::format("{}: {} of {} bytes is larger than the {} bytes allowed",
-                                 path.string(), what, size, largestFile));
-  std::string text(static_cast<size_t>(size), '\0');
-  std::ifstream in(path, std::ios::binary);
-  if (!in.read(text.data(), static_cast<std::streamsize>(size)))
-    throw InputError(fmt::format("{}: cannot read {}", path.string(), what));
-  return text;
-}
 
 Transform transformOf(const Json& rows) {
   Transform result;
@@ -68,8 +54,8 @@ CasterEntry entryOf(const Json& json, const fs::path& sidecar, size_t index) {
 }  // namespace
 
 std::vector<CasterEntry> readCasterEntries(const fs::path& sidecar) {
-  const Json json = Json::parse(readText(sidecar, "the sidecar"), nullptr, false);
-  if (json.is_discarded() || !json.is_object())
+  const Json json = detail::JsonPlace::parseFile(sidecar);
+  if (!json.is_object())
     throw InputError(fmt::format("{}: the sidecar is not a JSON object", sidecar.string()));
   std::vector<CasterEntry> entries;
   if (!json.contains("casters")) return entries;
@@ -84,7 +70,7 @@ CasterMesh readObj(const fs::path& path) {
   tinyobj::ObjReaderConfig config;
   config.vertex_color = false;
   tinyobj::ObjReader reader;
-  if (!reader.ParseFromString(readText(path, "the caster's mesh"), "", config)) {
+  if (!reader.ParseFromString(readPlainFile(path, largestFile), "", config)) {
     std::string reason = reader.Error();
     while (!reason.empty() && reason.back() == '\n') reason.pop_back();
     throw InputError(fmt::format("{}: not a readable OBJ mesh{}{}", path.string(),

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "frame/aov_names.h"
+#include "frame/frame_view.h"
 #include "image/parallel.h"
 
 namespace kagefude {
@@ -62,9 +63,64 @@ bool looksLikeCryptomatte(const std::string& stem) {
               .empty();
 }
 
+// What one part's header says: a key of its attributes, and the name of the layer that they mean.
+struct Description {
+  int part = 0;
+  std::string key;
+  std::string name;
+};
+
+// Nuke writes the attributes of what it has read with "exr/" before them.
+std::optional<std::string> keyOf(std::string_view attribute) {
+  constexpr std::string_view nuke = "exr/", end = "/name";
+  const size_t start = attribute.starts_with(nuke) ? nuke.size() : 0;
+  const std::string_view rest = attribute.substr(start);
+  if (!rest.starts_with(prefix) || !rest.ends_with(end) || rest.size() < prefix.size() + end.size())
+    return std::nullopt;
+  return std::string(attribute.substr(0, attribute.size() - end.size()));
+}
+
+// Those that name the frame's view, then those that name none; other views' are left out.
+std::vector<Description> describedCryptomattes(const ImageFile& file) {
+  std::vector<Description> own, common;
+  for (const int part : file.ownParts)
+    for (const std::string& attribute : file.textNames(part)) {
+      const auto key = keyOf(attribute);
+      if (!key) continue;
+      auto [name, view] = detail::cutView(*file.textOfPart(part, attribute), file.views);
+      if (!view.empty() && view != file.view) continue;
+      (view.empty() ? common : own).push_back({part, *key, std::move(name)});
+    }
+  own.insert(own.end(), common.begin(), common.end());
+  return own;
+}
+
+using Stems = std::map<std::string, Levels>;
+
+bool liesInPart(const ImageFile& file, const Levels& levels, int part) {
+  for (const auto& [number, level] : levels)
+    for (const std::string& name : level)
+      if (!name.empty()) return file.findChannel(name)->part == part;
+  return false;
+}
+
+Stems::iterator findStem(const ImageFile& file, Stems& stems, const Description& description,
+                         bool ownPart) {
+  const auto fits = [&](const auto& stem, bool exact) {
+    return (exact ? stem.first == description.name : endsWithLayer(stem.first, description.name)) &&
+           (!ownPart || liesInPart(file, stem.second, description.part));
+  };
+  for (const bool exact : {true, false}) {
+    const auto found =
+        std::find_if(stems.begin(), stems.end(), [&](const auto& s) { return fits(s, exact); });
+    if (found != stems.end()) return found;
+  }
+  return stems.end();
+}
+
 void checkConvention(const ImageFile& file, const Cryptomatte& found) {
   const auto check = [&](std::string_view what, std::string_view expected) {
-    const auto value = file.text(fmt::format("{}{}/{}", prefix, found.key, what));
+    const auto value = file.textOfPart(found.part, fmt::format("{}/{}", found.key, what));
     if (value && *value != expected) {
       throw InputError(fmt::format("{} has a Cryptomatte {} whose {} is {}; only {} is understood",
                                    file.path.string(), found.name, what, *value, expected));
@@ -99,20 +155,16 @@ Cryptomatte chooseCryptomatte(const ImageFile& file, std::string_view name) {
 std::vector<Cryptomatte> listCryptomattes(const ImageFile& file) {
   auto stems = levelsByStem(file);
   std::vector<Cryptomatte> all;
-  for (const std::string& attribute : file.textNames()) {
-    if (!attribute.starts_with(prefix) || !attribute.ends_with("/name")) continue;
-    const std::string key = attribute.substr(
-        prefix.size(), attribute.size() - prefix.size() - std::string_view("/name").size());
-    const std::string name = *file.text(attribute);
-    auto stem = stems.find(name);
-    if (stem == stems.end()) {
-      stem = std::find_if(stems.begin(), stems.end(),
-                          [&](const auto& s) { return endsWithLayer(s.first, name); });
+  const std::vector<Description> described = describedCryptomattes(file);
+  // A part's header speaks for its own channels first, then for channels anywhere.
+  for (const bool ownPart : {true, false})
+    for (const Description& description : described) {
+      const auto stem = findStem(file, stems, description, ownPart);
+      if (stem == stems.end()) continue;
+      all.push_back(assemble(description.key, stem->first, stem->second));
+      all.back().part = description.part;
+      stems.erase(stem);
     }
-    if (stem == stems.end()) continue;
-    all.push_back(assemble(key, stem->first, stem->second));
-    stems.erase(stem);
-  }
   for (const auto& [stem, levels] : stems) {
     if (looksLikeCryptomatte(stem)) all.push_back(assemble("", stem, levels));
   }

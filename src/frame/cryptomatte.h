@@ -22,10 +22,11 @@ uint32_t cryptomatteId(std::string_view name);
 
 /// A Cryptomatte as the header and the channel names show it.
 struct Cryptomatte {
-  std::string key;   ///< as in cryptomatte/<key>/name; "" when only the channels show it
+  std::string key;   ///< "cryptomatte/<key>", as its attributes begin; "" when it has none
   std::string name;  ///< layer name, for instance "ViewLayer.CryptoObject"
   std::vector<std::string> idChannels;        ///< by rank
   std::vector<std::string> coverageChannels;  ///< by rank
+  int part = 0;                               ///< whose header describes it
 };
 
 /// All Cryptomattes of a file: those that the metadata names and that have channels, then those
@@ -40,6 +41,11 @@ struct Manifest {
   std::vector<std::string> warnings;
 };
 Manifest readManifest(const ImageFile& file, const Cryptomatte& cryptomatte);
+
+/// The file beside the image that readManifest would open for its names, whether it is there or
+/// not; nothing when the header holds them itself, names none, or names one outside of the folder.
+std::optional<std::filesystem::path> manifestFile(const ImageFile& file,
+                                                  const Cryptomatte& cryptomatte);
 
 /// Ids and coverage by rank, each of the data window's size. Id 0 is background.
 struct CryptomattePlanes {

@@ -1,17 +1,19 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "base/error.h"
 #include "base/folder_bound.h"
+#include "base/plain_file.h"
 #include "frame/cryptomatte.h"
+#include "frame/json_text.h"
 
 namespace kagefude {
 namespace {
 
 constexpr uint64_t largestManifest = uint64_t{256} << 20;
+constexpr size_t mostNames = size_t{4} << 20;
 
 std::optional<uint32_t> parseId(const nlohmann::json& value) {
   if (!value.is_string()) return std::nullopt;
@@ -23,6 +25,11 @@ std::optional<uint32_t> parseId(const nlohmann::json& value) {
 }
 
 void parseManifest(const std::string& text, const std::string& where, Manifest& manifest) {
+  const std::string beyond = detail::beyondBounds(text, {4, mostNames});
+  if (!beyond.empty()) {
+    manifest.warnings.push_back(fmt::format("{}: {}; names are not known", where, beyond));
+    return;
+  }
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) {
     manifest.warnings.push_back(fmt::format("{} is not a JSON object; names are not known", where));
@@ -50,25 +57,31 @@ void readManifestFile(const ImageFile& file, const std::string& relative, Manife
     return;
   }
   const auto path = file.path.parent_path() / relative;
-  std::error_code problem;
-  const uint64_t bytes = std::filesystem::file_size(path, problem);
-  std::ifstream input(path, std::ios::binary);
-  if (problem || !input || bytes > largestManifest) {
+  try {
+    parseManifest(readPlainFile(path, largestManifest), where, manifest);
+  } catch (const InputError&) {
     manifest.warnings.push_back(where + " cannot be read; names are not known");
-    return;
   }
-  std::ostringstream text;
-  text << input.rdbuf();
-  parseManifest(text.str(), where, manifest);
 }
 
 }  // namespace
 
+std::optional<std::filesystem::path> manifestFile(const ImageFile& file,
+                                                  const Cryptomatte& cryptomatte) {
+  if (cryptomatte.key.empty()) return std::nullopt;
+  const std::string base = "cryptomatte/" + cryptomatte.key;
+  const auto beside = file.text(base + "/manif_file");
+  if (!beside || file.text(base + "/manifest") || !staysInFolder(*beside)) return std::nullopt;
+  return file.path.parent_path() / *beside;
+}
+
 Manifest readManifest(const ImageFile& file, const Cryptomatte& cryptomatte) {
   Manifest manifest;
-  const std::string base = "cryptomatte/" + cryptomatte.key;
-  const auto inHeader = cryptomatte.key.empty() ? std::nullopt : file.text(base + "/manifest");
-  const auto beside = cryptomatte.key.empty() ? std::nullopt : file.text(base + "/manif_file");
+  const auto textOf = [&](const char* what) -> std::optional<std::string> {
+    if (cryptomatte.key.empty()) return std::nullopt;
+    return file.textOfPart(cryptomatte.part, cryptomatte.key + what);
+  };
+  const auto inHeader = textOf("/manifest"), beside = textOf("/manif_file");
   if (inHeader) {
     parseManifest(*inHeader,
                   fmt::format("the manifest of {} in {}", cryptomatte.name, file.path.string()),

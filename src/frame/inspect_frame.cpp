@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "frame/aov_names.h"
 #include "frame/cryptomatte.h"
+#include "frame/frame_view.h"
+#include "frame/lossy_passes.h"
 #include "frame/sidecar.h"
 
 namespace kagefude {
@@ -82,40 +84,9 @@ void addMissing(Inspection& inspection) {
   }
 }
 
-bool isData(const PassChannels& pass) {
-  const std::array<AovKind, 6> data = {AovKind::position,      AovKind::normal,
-                                       AovKind::depth,         AovKind::objectIndex,
-                                       AovKind::materialIndex, AovKind::vector};
-
-  return std::any_of(data.begin(), data.end(),
-                     [&](AovKind kind) { return detail::aliasRank(kind, pass.pass) >= 0; });
-}
-
-// DWA quantises channels that end in R, G, B or Y; PXR24 drops the last byte of every float; B44
-// packs half channels with loss.
-void addCodecWarnings(Inspection& inspection, const ImageFile& file) {
-  constexpr std::array<std::string_view, 5> lossy = {"dwaa", "dwab", "pxr24", "b44", "b44a"};
-  bool hasData = !listCryptomattes(file).empty();
-  for (const PassChannels& pass : listPasses(file)) hasData = hasData || isData(pass);
-  for (const Part& part : file.parts) {
-    if (!hasData || std::find(lossy.begin(), lossy.end(), part.compression) == lossy.end())
-      continue;
-    add(inspection, FindingKind::warning,
-        fmt::format("data passes are packed with {}, which loses bits{}", part.compression,
-                    part.name.empty() ? "" : " in part " + part.name),
-        "render with zip, zips or piz");
-  }
-}
-
-void addPrecisionWarnings(Inspection& inspection, const ImageFile& file) {
-  for (const PassChannels& pass : listPasses(file)) {
-    const bool exact = detail::aliasRank(AovKind::position, pass.pass) >= 0 ||
-                       detail::aliasRank(AovKind::objectIndex, pass.pass) >= 0;
-    if (!exact || typeOf(file, pass.channels) != "half") continue;
-    add(inspection, FindingKind::warning,
-        fmt::format("{} is stored as half float, which keeps 11 bits", pass.pass),
-        "render with 32-bit float");
-  }
+void addLossyPasses(Inspection& inspection, const ImageFile& file) {
+  for (LossyPass& lossy : lossyPasses(file))
+    add(inspection, FindingKind::warning, std::move(lossy.what), std::move(lossy.remedy));
 }
 
 void addCryptomattes(Inspection& inspection, const ImageFile& file) {
@@ -218,21 +189,23 @@ std::optional<Sidecar> trySidecar(Inspection& inspection) {
 }  // namespace
 
 Inspection inspectFrame(const std::filesystem::path& path, const AovNames& names) {
-  const ImageFile file = openImage(path);
+  const ImageFile whole = openImage(path);
+  const ImageFile file = takeView(whole, names.view);
   Inspection inspection;
   inspection.path = path;
   inspection.dataWindow = file.dataWindow;
   inspection.displayWindow = file.displayWindow;
   inspection.pixelAspect = file.pixelAspect;
   inspection.parts = file.parts;
-  inspection.channelCount = static_cast<int>(file.channels.size());
+  inspection.views = file.views;
+  inspection.view = file.view;
+  inspection.channelCount = static_cast<int>(whole.channels.size());
   const auto sidecar = trySidecar(inspection);
-  addLayers(inspection, file);
+  addLayers(inspection, whole);
   addAovs(inspection, file, sidecar ? namesWith(names, *sidecar) : names);
   addMissing(inspection);
   addCryptomattes(inspection, file);
-  addCodecWarnings(inspection, file);
-  addPrecisionWarnings(inspection, file);
+  addLossyPasses(inspection, file);
   if (sidecar) addSidecar(inspection, file, *sidecar);
   return inspection;
 }

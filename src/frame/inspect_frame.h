@@ -71,6 +71,8 @@ struct Inspection {
   Window dataWindow, displayWindow;
   float pixelAspect = 1.0f;
   std::vector<Part> parts;
+  std::vector<std::string> views;  ///< of the file, the default first; empty when it names none
+  std::string view;  ///< the one that passes, Cryptomattes and masks were looked up in
   int channelCount = 0;
   std::vector<InspectedLayer> layers;
   std::vector<InspectedAov> aovs;

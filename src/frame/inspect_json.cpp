@@ -97,6 +97,8 @@ json toJson(const Inspection& inspection) {
                  {"displayWindow", windowJson(inspection.displayWindow)},
                  {"pixelAspect", inspection.pixelAspect},
                  {"channelCount", inspection.channelCount},
+                 {"views", inspection.views},
+                 {"view", inspection.view},
                  {"sidecar", inspection.sidecar},
                  {"frame", nullptr},
                  {"fps", nullptr}};

@@ -4,12 +4,13 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "base/error.h"
 #include "base/folder_bound.h"
 #include "base/nearest_name.h"
+#include "base/plain_file.h"
+#include "frame/json_text.h"
 
 namespace kagefude::detail {
 namespace {
@@ -30,22 +31,14 @@ std::string describe(const nlohmann::json& value) {
 }  // namespace
 
 nlohmann::json JsonPlace::parseFile(const std::filesystem::path& path) {
-  std::error_code problem;
-  const uint64_t bytes = std::filesystem::file_size(path, problem);
-  std::ifstream input(path, std::ios::binary);
-  if (problem || !input) {
-    throw InputError(fmt::format("{} cannot be read{}", path.string(),
-                                 problem ? ": " + problem.message() : std::string()));
-  }
-  if (bytes > largestFile) {
-    throw InputError(fmt::format("{} has {} bytes; a frame's JSON has at most {}", path.string(),
-                                 bytes, largestFile));
-  }
+  const std::string text = readPlainFile(path, largestFile);
+  const std::string beyond = beyondBounds(text);
+  if (!beyond.empty()) throw InputError(fmt::format("{}: {}", path.string(), beyond));
   try {
-    return nlohmann::json::parse(input);
+    return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
     throw InputError(fmt::format("{} is not valid JSON: trouble at byte {} of {}", path.string(),
-                                 error.byte, bytes));
+                                 error.byte, text.size()));
   } catch (const nlohmann::json::exception&) {
     throw InputError(
         fmt::format("{} is not valid JSON: a number in it is too large", path.string()));

@@ -1,13 +1,10 @@
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfMultiView.h>
-#include <OpenEXR/ImfStandardAttributes.h>
-
 #include <algorithm>
 #include <set>
 #include <utility>
 
 #include "frame/aov_names.h"
 #include "frame/aov_resolver.h"
+#include "frame/frame_view.h"
 
 namespace kagefude {
 namespace {
@@ -33,20 +30,15 @@ std::string_view lastOf(std::string_view name) {
   return dot == std::string_view::npos ? name : name.substr(dot + 1);
 }
 
-// Only these are taken for views, so that a layer that is called like a pass is not.
-std::set<std::string, std::less<>> viewsOf(const ImageFile& file) {
-  std::set<std::string, std::less<>> views = {"left", "right"};
-  for (const Imf::Header& header : *file.headers) {
-    if (Imf::hasMultiView(header)) {
-      const auto& listed = Imf::multiView(header);
-      views.insert(listed.begin(), listed.end());
-    }
-    if (header.hasView()) views.insert(header.view());
-  }
-  return views;
+using Views = std::set<std::string, std::less<>>;
+
+Views viewsOf(const ImageFile& file) {
+  if (file.viewTaken) return {};
+  const std::vector<std::string> views = listViews(file);
+  return {views.begin(), views.end()};
 }
 
-Component split(std::string_view name, const std::set<std::string, std::less<>>& views) {
+Component split(std::string_view name, const Views& views) {
   if (name.find('.') == std::string_view::npos) {
     // Bare R, G, B, A are a beauty; bare Z and named single channels are passes of their own.
     const bool colour = componentOrder(name) >= 0 && !isKnownPass(name);
@@ -65,6 +57,33 @@ Component split(std::string_view name, const std::set<std::string, std::less<>>&
     pass = cutLast(rest);
   }
   return {{std::string(rest), std::string(pass), std::string(view), {}}, order};
+}
+
+bool isPictureWithDepth(const std::vector<std::pair<int, std::string>>& members) {
+  bool red = false, depth = false;
+  for (const auto& [order, name] : members) {
+    const std::string last = plainName(lastOf(name));
+    red = red || last == "r" || last == "red";
+    depth = depth || last == "z";
+  }
+  return red && depth;
+}
+
+// A part's bare R, G, B, A and Z share its name, but its Z is a depth of its own.
+void takeDepthOut(std::vector<PassChannels>& passes,
+                  std::vector<std::vector<std::pair<int, std::string>>>& members) {
+  for (size_t i = passes.size(); i-- > 0;) {
+    if (!isPictureWithDepth(members[i])) continue;
+    const auto depth = std::find_if(members[i].begin(), members[i].end(), [](const auto& m) {
+      return plainName(lastOf(m.second)) == "z";
+    });
+    PassChannels own = passes[i];
+    own.layer = own.layer.empty() ? own.pass : own.layer + "." + own.pass;
+    own.pass = std::string(lastOf(depth->second));
+    passes.push_back(std::move(own));
+    members.push_back({*depth});
+    members[i].erase(depth);
+  }
 }
 
 bool isOne(const PassChannels& a, const PassChannels& b) {
@@ -89,6 +108,7 @@ std::vector<PassChannels> listPasses(const ImageFile& file) {
     }
     members[index].emplace_back(component.order, channel.name);
   }
+  takeDepthOut(passes, members);
   for (size_t i = 0; i < passes.size(); ++i) {
     std::stable_sort(members[i].begin(), members[i].end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });

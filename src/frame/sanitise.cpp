@@ -44,6 +44,39 @@ size_t clearNonFinite(Vec3Plane& position, Vec3Plane& normal, View<uint32_t> lab
   });
 }
 
+size_t clearNonFiniteColour(Vec3Plane& colour, View<float> alpha) {
+  if (colour.empty()) return clearNonFinite(alpha, 0.0f);
+  return countRows(colour.x.height(), [&](int y) {
+    size_t count = 0;
+    for (int x = 0; x < colour.x.width(); ++x) {
+      const bool goodAlpha = alpha.empty() || std::isfinite(alpha(x, y));
+      if (finiteAt(colour, x, y) && goodAlpha) continue;
+      colour.set(x, y, V3f(0, 0, 0));
+      if (!goodAlpha) alpha(x, y) = 0;
+      ++count;
+    }
+    return count;
+  });
+}
+
+size_t clearNonFiniteCoverage(std::span<Floats> ranks) {
+  if (ranks.empty()) return 0;
+  return countRows(ranks.front().height(), [&](int y) {
+    size_t count = 0;
+    for (int x = 0; x < ranks.front().width(); ++x) {
+      bool good = true;
+      for (size_t rank = 0; rank < ranks.size(); ++rank) {
+        float& coverage = ranks[rank](x, y);
+        if (std::isfinite(coverage)) continue;
+        coverage = rank == 0 ? 1.0f : 0.0f;
+        good = false;
+      }
+      count += good ? 0 : 1;
+    }
+    return count;
+  });
+}
+
 size_t clearNonFinite(View<float> plane, float background) {
   if (plane.empty()) return 0;
   return countRows(plane.height, [&](int y) {

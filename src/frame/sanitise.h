@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "image/plane.h"
 #include "image/vec.h"
@@ -11,6 +12,14 @@ namespace kagefude {
 /// where given, label 0. Returns how many pixels that were. Views may be empty (then skipped);
 /// those given must be of one size. Cost: one pass.
 size_t clearNonFinite(Vec3Plane& position, Vec3Plane& normal, View<uint32_t> labels = {});
+
+/// Makes pixels of a picture black whose colour is not finite, and transparent where its alpha
+/// (which may be empty) is not. Returns how many pixels that were. Cost: one pass.
+size_t clearNonFiniteColour(Vec3Plane& colour, View<float> alpha = {});
+
+/// Cleans a Cryptomatte's coverage by rank: what is not finite becomes 1 in the first rank, whose
+/// id is then the pixel's own, and 0 in the others. Returns how many pixels that were.
+size_t clearNonFiniteCoverage(std::span<Floats> ranks);
 
 /// Replaces NaN and Inf by `background` and returns how many there were.
 size_t clearNonFinite(View<float> plane, float background);

@@ -56,11 +56,14 @@ MaskSample readSample(const JsonPlace& json) {
 LightMasks readMasks(const JsonPlace& json) {
   LightMasks masks;
   masks.arrangement =
-      static_cast<MaskArrangement>(json["arrangement"].choice({"pair", "line", "disc"}));
+      static_cast<MaskArrangement>(json["arrangement"].choice({"pair", "line", "disc", "hard"}));
   masks.offset = json["offset"].number(0, large);
+  masks.offsetV = json.has("offset_v") ? json["offset_v"].number(0, large) : masks.offset;
   const bool pair = masks.arrangement == MaskArrangement::pair;
-  const size_t fewest = masks.arrangement == MaskArrangement::disc ? 4 : 2;
-  for (const JsonPlace& sample : json["samples"].list(fewest, pair ? 2 : mostSamples)) {
+  const bool hard = masks.arrangement == MaskArrangement::hard;
+  const size_t fewest = masks.arrangement == MaskArrangement::disc ? 4 : hard ? 1 : 2;
+  const size_t most = pair ? 2 : hard ? 1 : mostSamples;
+  for (const JsonPlace& sample : json["samples"].list(fewest, most)) {
     masks.samples.push_back(readSample(sample));
   }
   return masks;
@@ -89,6 +92,17 @@ AreaShape readArea(const JsonPlace& json) {
           json["half_v"].number(0, large)};
 }
 
+ShotLight readShotLight(const JsonPlace& json) {
+  ShotLight light{json["name"].name(),
+                  json["irradiance"].number(0, large),
+                  json["largest_irradiance"].number(0, large),
+                  {},
+                  {}};
+  if (json.has("largest_power")) light.largestPower = json["largest_power"].number(0, large);
+  if (json.has("largest_on_axis")) light.largestOnAxis = json["largest_on_axis"].number(0, large);
+  return light;
+}
+
 WholeShot readShot(const JsonPlace& json) {
   WholeShot shot;
   shot.first = json["first"].integer(-mostFrames, mostFrames);
@@ -97,8 +111,7 @@ WholeShot readShot(const JsonPlace& json) {
   shot.subjectRadius = json["subject"]["radius"].number(0, large);
   shot.distance = json["distance"].number(0, large);
   for (const JsonPlace& light : json["lights"].list(0, mostLights))
-    shot.lights.push_back({light["name"].name(), light["irradiance"].number(0, large),
-                           light["largest_irradiance"].number(0, large)});
+    shot.lights.push_back(readShotLight(light));
   checkNames(json["lights"], shot.lights);
   return shot;
 }
@@ -158,6 +171,7 @@ SidecarObject readObject(const JsonPlace& json) {
   if (json.has("materials")) {
     for (const JsonPlace& name : json["materials"].list()) object.materials.push_back(name.text());
   }
+  if (json.has("painted")) object.painted = json["painted"].boolean();
   if (json.has("flat")) object.flat = json["flat"].boolean();
   return object;
 }
@@ -195,6 +209,7 @@ void readFrame(const JsonPlace& json, Sidecar& sidecar) {
   const JsonPlace layers = json["layers"];
   if (layers.has("data")) sidecar.dataLayer = layers["data"].text();
   if (layers.has("beauty")) sidecar.beautyLayer = layers["beauty"].text();
+  if (layers.has("lines")) sidecar.linesLayer = layers["lines"].text();
 }
 
 void readLists(const JsonPlace& json, Sidecar& sidecar) {
@@ -218,8 +233,9 @@ void readLists(const JsonPlace& json, Sidecar& sidecar) {
 
 }  // namespace
 
-Sidecar readSidecar(const std::filesystem::path& path) {
-  const nlohmann::json parsed = JsonPlace::parseFile(path);
+namespace {
+
+Sidecar sidecarFrom(const nlohmann::json& parsed, const std::filesystem::path& path) {
   const JsonPlace json(path, parsed, "");
   checkVersion(json, path);
   Sidecar sidecar;
@@ -230,12 +246,21 @@ Sidecar readSidecar(const std::filesystem::path& path) {
   return sidecar;
 }
 
+}  // namespace
+
+Sidecar readSidecar(const std::filesystem::path& path) {
+  return sidecarFrom(JsonPlace::parseFile(path), path);
+}
+
 std::optional<Sidecar> findSidecar(const std::filesystem::path& imagePath) {
   std::filesystem::path path = imagePath;
   path.replace_extension(".json");
   std::error_code problem;
   if (!std::filesystem::exists(path, problem)) return std::nullopt;
-  return readSidecar(path);
+  const nlohmann::json parsed = JsonPlace::parseFile(path);
+  // Asset managers and other tools write JSONs beside frames as well.
+  if (!parsed.is_object() || !parsed.contains("kagefude")) return std::nullopt;
+  return sidecarFrom(parsed, path);
 }
 
 const SidecarLight* Sidecar::findLight(std::string_view name) const {

@@ -31,11 +31,12 @@ struct MaskSample {
   double u = 0, v = 0;           ///< place on the light in units of the arrangement's offset
 };
 
-enum class MaskArrangement { pair, line, disc };
+enum class MaskArrangement { pair, line, disc, hard };
 
 struct LightMasks {
   MaskArrangement arrangement = MaskArrangement::pair;
-  double offset = 0;  ///< world units; pair: the seed's l; line: half its length; disc: its radius
+  double offset = 0;   ///< world units; pair: the seed's l; line: half its length; disc: its radius
+  double offsetV = 0;  ///< of a stretched disc, along v; else as `offset`
   std::vector<MaskSample> samples;
 };
 
@@ -84,7 +85,8 @@ struct SidecarObject {
   V3d referencePoint{0, 0, 0};                 ///< world space; the first of the next, if any
   std::vector<V3d> referencePoints;            ///< world space; all that the artist marked
   std::vector<std::string> materials;
-  bool flat = false;  ///< thinnest extent below 2 % of the largest
+  bool painted = true;  ///< false: cut or see-through, so the beauty stands there
+  bool flat = false;    ///< thinnest extent below 2 % of the largest
 };
 
 struct SidecarMaterial {
@@ -96,8 +98,10 @@ struct SidecarMaterial {
 /// What a light gives over the whole shot: luminance that arrives at the subject, facing it.
 struct ShotLight {
   std::string name;
-  double irradiance = 0;         ///< mean; watts per square metre
-  double largestIrradiance = 0;  ///< in any frame that was looked at
+  double irradiance = 0;                ///< mean; watts per square metre
+  double largestIrradiance = 0;         ///< in any frame that was looked at
+  std::optional<double> largestPower;   ///< luminance of energy times color, in any such frame
+  std::optional<double> largestOnAxis;  ///< irradiance, were the subject on the light's axis
 };
 
 /// What holds for the whole shot, the same beside each of its frames.
@@ -119,6 +123,7 @@ struct Sidecar {
   int scale = 1;  ///< how many times the shot's own resolution the image has
   std::optional<WholeShot> shot;
   std::string dataLayer, beautyLayer;  ///< "" when not given
+  std::string linesLayer;              ///< of drawn lines that lie over everything; "" for none
   Camera camera;
   std::vector<SidecarLight> lights;
   std::vector<SidecarObject> objects;
@@ -136,8 +141,8 @@ struct Sidecar {
 /// twice, a mask arrangement has the wrong number of samples, or a path leaves the folder.
 Sidecar readSidecar(const std::filesystem::path& path);
 
-/// The sidecar of a frame: the same path with .json in place of the extension; nothing when there
-/// is no such file. Throws as readSidecar does.
+/// The sidecar of a frame: the same path with .json in place of the extension; nothing without such
+/// a file, or when it is someone else's JSON (no key "kagefude"). Throws as readSidecar does.
 std::optional<Sidecar> findSidecar(const std::filesystem::path& imagePath);
 
 }  // namespace kagefude

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 #include "look/override.h"
+#include "look/parse_toml.h"
 #include "look/read_section.h"
 
 namespace kagefude {
@@ -11,10 +13,20 @@ namespace {
 
 constexpr int64_t formatVersion = 1;
 
+constexpr uint64_t largestLook = uint64_t{16} << 20;
+
+/// What "nothing" is called where a file must be named; other devices are no looks.
+bool isNullDevice(const std::filesystem::path& path) {
+  std::error_code missing;
+  return std::filesystem::canonical(path, missing) == "/dev/null";
+}
+
 toml::table parseFile(const std::filesystem::path& path) {
-  if (path.empty()) return {};
+  if (path.empty() || isNullDevice(path)) return {};
   try {
-    return toml::parse_file(path.string());
+    return parseToml(readPlainFile(path, largestLook), path.string());
+  } catch (const InputError& error) {
+    throw LookError(fmt::format("the look {}", error.what()));
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
     const std::string place =
@@ -37,10 +49,35 @@ std::vector<std::string> passNames() {
   return names;
 }
 
-void readPasses(const toml::table& root, PassParams& params) {
+/// Where a section that does nothing in a scope would act.
+std::string remedyFor(const std::string& section) {
+  for (const Scope scope : {Scope::light, Scope::style})
+    if (actsIn(scope, section))
+      return fmt::format("give it in [{}] or under [[{}]]", section,
+                         scopeNames[static_cast<size_t>(scope)]);
+  return fmt::format("give it in [{}]", section);
+}
+
+/// Settings that would be taken and do nothing are refused by name.
+void refuseIdle(const toml::table& section, std::string_view name, Scope scope) {
+  const std::string pass(name), under(scopeNames[static_cast<size_t>(scope)]);
+  if (!actsIn(scope, pass))
+    throw LookError(fmt::format("{}: {} does nothing under [[{}]]; {}", placeOf(section), pass,
+                                under, remedyFor(pass)));
+  for (const auto& [key, node] : section)
+    if (!actsIn(scope, pass, key.str()))
+      throw LookError(
+          fmt::format("{}: {}.{} does nothing under [[{}]], for it holds for the whole look; give "
+                      "it in [{}]",
+                      placeOf(node), pass, key.str(), under, pass));
+}
+
+void readPasses(const toml::table& root, PassParams& params, Scope scope) {
   for (const PassEntry& pass : passList())
-    if (const toml::table* section = findSection(root, pass.table->pass))
+    if (const toml::table* section = findSection(root, pass.table->pass)) {
+      refuseIdle(*section, pass.table->pass, scope);
       readSection(*section, *pass.table, pass.in(params));
+    }
 }
 
 /// The tables of a list such as [[style]]; a single [style] counts as a list of one.
@@ -78,9 +115,15 @@ void readLights(const toml::table& root, Look& look) {
     readSection(*section, lightTable, &light.light, nested);
     if (light.light.name.empty())
       throw LookError(fmt::format("{}: a [[light]] wants a name", placeOf(*section)));
-    if (const toml::table* shadow = findSection(*section, shadowTable.pass))
+    for (const LightLook& other : look.lights)
+      if (other.light.name == light.light.name)
+        throw LookError(fmt::format("{}: there are two [[light]] named {}", placeOf(*section),
+                                    light.light.name));
+    if (const toml::table* shadow = findSection(*section, shadowTable.pass)) {
+      refuseIdle(*shadow, shadowTable.pass, Scope::light);
       readSection(*shadow, shadowTable, &light.shadow);
-    readPasses(*section, light.passes);
+    }
+    readPasses(*section, light.passes, Scope::light);
     look.lights.push_back(std::move(light));
   }
 }
@@ -93,7 +136,7 @@ void readStyles(const toml::table& root, Look& look) {
     const size_t numbers = style.style.reference.size();
     if (numbers != 0 && numbers != 3)
       throw LookError(fmt::format("{}: style.reference wants three numbers", placeOf(*section)));
-    readPasses(*section, style.passes);
+    readPasses(*section, style.passes, Scope::style);
     look.styles.push_back(std::move(style));
   }
 }
@@ -107,13 +150,23 @@ void spell(std::string& text, const std::string& heading, const ParameterTable& 
   text += "\n";
 }
 
-void spellPasses(std::string& text, const std::string& prefix, PassParams params) {
-  for (const PassEntry& pass : passList()) {
-    text += fmt::format("[{}{}]\n", prefix, pass.table->pass);
-    const void* values = pass.in(params);
-    for (const Parameter& p : pass.table->parameters)
+/// Without the keys that would be refused there.
+void spellScoped(std::string& text, const std::string& heading, const ParameterTable& table,
+                 Scope scope, const void* values) {
+  text += heading + "\n";
+  for (const Parameter& p : table.parameters)
+    if (actsIn(scope, table.pass, p.name))
       text += fmt::format("{} = {}\n", p.name, spellValue(p, p.get(values)));
-    text += "\n";
+  text += "\n";
+}
+
+void spellPasses(std::string& text, Scope scope, PassParams params) {
+  const std::string prefix =
+      scope == Scope::look ? "" : fmt::format("{}.", scopeNames[static_cast<size_t>(scope)]);
+  for (const PassEntry& pass : passList()) {
+    const std::string_view section = pass.table->pass;
+    if (!actsIn(scope, section)) continue;
+    spellScoped(text, fmt::format("[{}{}]", prefix, section), *pass.table, scope, pass.in(params));
   }
 }
 
@@ -145,7 +198,7 @@ Look readLook(const std::filesystem::path& path, const std::vector<std::string>&
   Look look;
   look.folder = path.parent_path();
   readOwnSections(root, look);
-  readPasses(root, look.passes);
+  readPasses(root, look.passes, Scope::look);
   readLights(root, look);
   readStyles(root, look);
   return look;
@@ -158,15 +211,15 @@ std::string resolvedText(const Look& look) {
   spell(text, "[scene]", sceneTable, look.scene);
   spell(text, "[colour]", colourTable, look.colour);
   spell(text, "[output]", outputTable, look.output);
-  spellPasses(text, "", look.passes);
+  spellPasses(text, Scope::look, look.passes);
   for (const LightLook& light : look.lights) {
     spell(text, "[[light]]", lightTable, light.light);
-    spell(text, "[light.shadow]", shadowTable, light.shadow);
-    spellPasses(text, "light.", light.passes);
+    spellScoped(text, "[light.shadow]", shadowTable, Scope::light, &light.shadow);
+    spellPasses(text, Scope::light, light.passes);
   }
   for (const StyleLook& style : look.styles) {
     spell(text, "[[style]]", styleTable, style.style);
-    spellPasses(text, "style.", style.passes);
+    spellPasses(text, Scope::style, style.passes);
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "look/parse_toml.h"
 
 namespace kagefude {
 namespace {
@@ -39,6 +40,8 @@ std::vector<Step> parsePath(const std::string& text, const std::string& path) {
     steps.push_back(parseStep(text, path.substr(begin, dot - begin)));
     begin = dot + 1;
   }
+  if (steps.size() > mostNesting)
+    fail(path.substr(0, 40) + "...", fmt::format("the key has more than {} parts", mostNesting));
   if (steps.size() < 2 || steps.back().index) fail(text, "expected section.key=value");
   return steps;
 }
@@ -60,7 +63,7 @@ toml::table& descend(toml::table& at, const Step& step, const std::string& text)
 void insertValue(toml::table& section, const std::string& key, const std::string& value) {
   const std::string source = "--set " + key;
   try {
-    toml::table parsed = toml::parse("value = " + value, source);
+    toml::table parsed = parseToml("value = " + value, source);
     section.insert_or_assign(key, std::move(*parsed.get("value")));
   } catch (const toml::parse_error&) {
     section.insert_or_assign(key, value);

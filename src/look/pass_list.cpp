@@ -9,26 +9,26 @@ namespace kagefude {
 namespace {
 
 template <auto Member>
-constexpr PassEntry entry(const ParameterTable& table) {
-  return {&table, [](PassParams& params) -> void* { return &(params.*Member); }};
+constexpr PassEntry entry(const ParameterTable& table, Scope finest) {
+  return {&table, [](PassParams& params) -> void* { return &(params.*Member); }, finest};
 }
 
 constexpr std::array passes{
-    entry<&PassParams::surfaces>(surfacesTable),
-    entry<&PassParams::pair>(pairTable),
-    entry<&PassParams::lightShape>(lightShapeTable),
-    entry<&PassParams::pcf>(pcfTable),
-    entry<&PassParams::pcss>(pcssTable),
-    entry<&PassParams::coverage>(coverageTable),
-    entry<&PassParams::volume>(volumeTable),
-    entry<&PassParams::planar>(planarTable),
-    entry<&PassParams::blob>(blobTable),
-    entry<&PassParams::smooth>(smoothTable),
-    entry<&PassParams::shade>(shadeTable),
-    entry<&PassParams::merge>(mergeTable),
-    entry<&PassParams::tone>(toneTable),
-    entry<&PassParams::brush>(brushTable),
-    entry<&PassParams::outline>(outlineTable),
+    entry<&PassParams::surfaces>(surfacesTable, Scope::look),
+    entry<&PassParams::pair>(pairTable, Scope::light),
+    entry<&PassParams::lightShape>(lightShapeTable, Scope::light),
+    entry<&PassParams::pcf>(pcfTable, Scope::light),
+    entry<&PassParams::pcss>(pcssTable, Scope::light),
+    entry<&PassParams::coverage>(coverageTable, Scope::light),
+    entry<&PassParams::volume>(volumeTable, Scope::light),
+    entry<&PassParams::planar>(planarTable, Scope::light),
+    entry<&PassParams::blob>(blobTable, Scope::light),
+    entry<&PassParams::smooth>(smoothTable, Scope::light),
+    entry<&PassParams::shade>(shadeTable, Scope::light),
+    entry<&PassParams::merge>(mergeTable, Scope::light),
+    entry<&PassParams::tone>(toneTable, Scope::style),
+    entry<&PassParams::brush>(brushTable, Scope::style),
+    entry<&PassParams::outline>(outlineTable, Scope::style),
 };
 
 constexpr std::array ownSections{&aovNamesTable, &shadowTable, &sceneTable, &lightTable,
@@ -43,9 +43,29 @@ constexpr auto joined() {
 }
 constexpr auto tables = joined();
 
+/// Keys that hold for the whole look though others of their section can differ.
+struct Key {
+  std::string_view section, name;
+};
+constexpr Key wholeLookKeys[] = {{"shadow", "lights"}, {"merge", "lights"}, {"tone", "light"}};
+
 }  // namespace
 
 std::span<const PassEntry> passList() { return passes; }
+
+bool actsIn(Scope scope, std::string_view section) {
+  if (scope == Scope::look) return true;
+  for (const PassEntry& pass : passes)
+    if (pass.table->pass == section) return pass.finest == scope;
+  return true;
+}
+
+bool actsIn(Scope scope, std::string_view section, std::string_view key) {
+  if (scope == Scope::look) return true;
+  for (const Key& own : wholeLookKeys)
+    if (own.section == section && own.name == key) return false;
+  return actsIn(scope, section);
+}
 
 std::span<const ParameterTable* const> allTables() { return tables; }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "passes/brush/brush_params.h"
 #include "passes/casters/coverage.h"
@@ -40,11 +41,20 @@ struct PassParams {
   OutlineParams outline;
 };
 
-/// One pass as the look sees it: its table, and where its parameters lie.
+/// Where a look can set a pass's parameters: for the whole look always, and for one light or style.
+enum class Scope { look, light, style };
+inline constexpr std::string_view scopeNames[] = {"look", "light", "style"};
+
+/// One pass as the look sees it: its table, where its parameters lie, and for what they can differ.
 struct PassEntry {
   const ParameterTable* table;
   void* (*in)(PassParams&);
+  Scope finest;  ///< look: the same for all lights and styles
 };
+
+/// Whether a section or a key of it does anything in a scope. Sections that no pass has do.
+bool actsIn(Scope scope, std::string_view section);
+bool actsIn(Scope scope, std::string_view section, std::string_view key);
 
 /// All passes in the order in which a frame runs through them.
 std::span<const PassEntry> passList();

@@ -154,14 +154,18 @@ inline constexpr Parameter styleParameters[] = {
 inline constexpr ParameterTable styleTable{"style", "paints objects or materials with a strip",
                                            "002 fig. 5.5", styleParameters};
 
+enum class LightKind { automatic, point, spot, sun, area };
+inline constexpr std::string_view lightKindNames[] = {"auto", "point", "spot", "sun", "area"};
+
 /// One [[light]]: settings for lights of the sidecar whose name matches, or a light of its own
 /// where no sidecar describes it (then `masks` or `depth_map` name its layers or file).
 struct LightParams {
   std::string name;
-  LightType type = LightType::point;
+  LightKind type = LightKind::automatic;
   std::vector<float> position;
   std::vector<float> direction;
   float radius = 0.0f;
+  float weight = -1.0f;
   bool on = true;
   std::vector<std::string> masks;
   std::vector<float> places;
@@ -171,7 +175,9 @@ struct LightParams {
 };
 inline constexpr Parameter lightParameters[] = {
     plain<&LightParams::name>("name", "name or glob of the light"),
-    choice<&LightParams::type>("type", lightTypeNames, "kind of a light that no sidecar describes"),
+    choice<&LightParams::type>("type", lightKindNames,
+                               "kind of a light that no JSON describes; auto: as the JSON says, "
+                               "else a point"),
     numbers<&LightParams::position>(
         "position", 3, -1e12, 1e12, "world units",
         "where it stands; moves a light of the sidecar, which then takes its shadow from "
@@ -180,6 +186,10 @@ inline constexpr Parameter lightParameters[] = {
     numbers<&LightParams::direction>("direction", 3, -1e12, 1e12, "",
                                      "which way its light travels (sun, spot, area)"),
     number<&LightParams::radius>("radius", 0, 1e12, "world units", "radius of its disc"),
+    number<&LightParams::weight>(
+        "weight", -1, 1e12, "watts per square metre",
+        "irradiance at its subject, by which it shares in the tone and leads the strokes; -1: "
+        "from the JSON's energy and distance, else the mean of the other lights"),
     plain<&LightParams::masks>("masks", "layers or channels of its hard masks, in order"),
     numbers<&LightParams::places>(
         "places", 0, -1, 1, "radii",

@@ -25,6 +25,7 @@ LightVisibility volumeShadow(const ShadowWork&);
 LightVisibility placesShadow(const ShadowWork&);
 LightVisibility planarShadow(const ShadowWork&);
 LightVisibility blobShadow(const ShadowWork&);
+LightVisibility hardShadow(const ShadowWork&);
 
 enum class ShadowMethod {
   automatic,
@@ -38,7 +39,8 @@ enum class ShadowMethod {
   volume,
   places,
   planar,
-  blob
+  blob,
+  hard
 };
 
 /// Hard masks that were rendered with the frame.
@@ -148,6 +150,12 @@ inline constexpr std::array shadowMethods{
                       blobShadow,
                       Smoothing::whereAsked,
                       {.camera = true, .receiver = true}},
+    ShadowMethodEntry{ShadowMethod::hard,
+                      "hard",
+                      "hard, from the first mask, that of the light's middle",
+                      hardShadow,
+                      Smoothing::whereAsked,
+                      {.masks = {1, 0, "disc:9"}}},
 };
 
 constexpr const ShadowMethodEntry& entryOf(ShadowMethod method) {

@@ -6,9 +6,12 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <memory>
 
 #include "base/error.h"
+#include "base/plain_file.h"
+#include "base/printable.h"
 #include "exr/image_file.h"
 
 namespace kagefude {
@@ -30,6 +33,29 @@ bool succeeds(png_structp png, const Step& step) {
   return true;
 }
 
+/// Walks over a PNG's chunks before libpng does, which allocates what a chunk claims (up to 2 GiB)
+/// before it finds that the file ends. InputError for a claim beyond the end. Returns whether the
+/// last chunk, IEND, is there: whether the file is whole.
+bool checkChunks(const std::filesystem::path& path) {
+  const uint64_t bytes = requirePlainFile(path);
+  std::ifstream file(path, std::ios::binary);
+  constexpr uint64_t signature = 8, frame = 12;  // length, type and checksum of a chunk
+  for (uint64_t at = signature; at + 8 <= bytes;) {
+    unsigned char head[8] = {};
+    file.seekg(static_cast<std::streamoff>(at));
+    if (!file.read(reinterpret_cast<char*>(head), 8)) return false;
+    const uint64_t size = uint64_t{head[0]} << 24 | head[1] << 16 | head[2] << 8 | head[3];
+    const std::string type(reinterpret_cast<const char*>(head) + 4, 4);
+    if (at + frame + size > bytes)
+      throw InputError(
+          fmt::format("{} cannot be read: its chunk {} claims {} bytes, and the file has {}",
+                      path.string(), printable(type), size, bytes));
+    if (type == "IEND") return true;
+    at += frame + size;
+  }
+  return false;
+}
+
 struct CloseFile {
   void operator()(FILE* file) const { std::fclose(file); }
 };
@@ -37,11 +63,13 @@ struct CloseFile {
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& path)
-      : path_(path), file_(std::fopen(path.c_str(), "rbe")) {
+      : path_(path), whole_(checkChunks(path)), file_(std::fopen(path.c_str(), "rbe")) {
     if (!file_) refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
     png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message_, keepMessage, ignoreWarning);
     info_ = png_ ? png_create_info_struct(png_) : nullptr;
     if (!info_) throw std::bad_alloc();
+    constexpr png_alloc_size_t mostUnpacked = 8 << 20;  // of one text or profile
+    png_set_chunk_malloc_max(png_, mostUnpacked);
   }
   ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   Reader(const Reader&) = delete;
@@ -62,7 +90,15 @@ class Reader {
     return std::nullopt;
   }
 
-  PngPicture picture() {
+  bool isWhole() const { return whole_; }
+
+  PngPicture picture(int64_t mostPixels) {
+    const int64_t pixels =
+        int64_t{png_get_image_width(png_, info_)} * png_get_image_height(png_, info_);
+    if (pixels > mostPixels)
+      refuse(fmt::format("is {} x {} pixels; at most {} are allowed",
+                         png_get_image_width(png_, info_), png_get_image_height(png_, info_),
+                         mostPixels));
     PngPicture result;
     require([&] {
       png_set_expand(png_);
@@ -102,6 +138,7 @@ class Reader {
   }
 
   std::filesystem::path path_;
+  bool whole_;
   std::unique_ptr<FILE, CloseFile> file_;
   std::string message_;
   png_structp png_ = nullptr;
@@ -152,15 +189,16 @@ void packRow(const PngPicture& picture, int y, std::vector<unsigned char>& row) 
 
 }  // namespace
 
-PngPicture readPng(const std::filesystem::path& path) {
+PngPicture readPng(const std::filesystem::path& path, int64_t mostPixels) {
   Reader reader(path);
   reader.readHeader();
-  return reader.picture();
+  return reader.picture(mostPixels);
 }
 
 std::optional<std::string> readPngText(const std::filesystem::path& path, const std::string& key) {
   try {
     Reader reader(path);
+    if (!reader.isWhole()) return std::nullopt;
     reader.readHeader();
     return reader.text(key);
   } catch (const InputError&) {

@@ -21,11 +21,12 @@ struct PngPicture {
 
 /// Reads any PNG; palettes become RGB, fewer than 8 bits become 8, a transparent colour becomes
 /// alpha. Throws InputError with the file's name when it is missing, not a PNG, damaged, truncated
-/// or of an absurd claim (checkClaim).
-PngPicture readPng(const std::filesystem::path& path);
+/// of an absurd claim (checkClaim, or a chunk that goes beyond the file's end), or of more than
+/// `mostPixels`, all before anything of the claimed size is allocated.
+PngPicture readPng(const std::filesystem::path& path, int64_t mostPixels = int64_t{1} << 30);
 
-/// The value of a PNG's text chunk of that key ahead of the pixels; nothing when there is none, or
-/// no readable PNG.
+/// The value of a PNG's text chunk of that key ahead of the pixels; nothing when there is none,
+/// when the file is no readable PNG, or when it was cut.
 std::optional<std::string> readPngText(const std::filesystem::path& path, const std::string& key);
 
 /// The bytes of a PNG marked as sRGB, with text chunks. Throws OutputError when the encoder fails.

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/plain_file.h"
 #include "exr/image_file.h"
 #include "exr/read_channels.h"
 #include "picture/png_file.h"
@@ -18,6 +19,13 @@ constexpr int64_t mostPixels = int64_t{1} << 26;
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
   throw InputError(fmt::format("strip {} {}", path.string(), why));
+}
+
+/// Before anything of the picture's size is allocated.
+void requireSize(const std::filesystem::path& path, int width, int height) {
+  if (int64_t{width} * height > mostPixels)
+    refuse(path,
+           fmt::format("is {} x {} pixels; at most {} are allowed", width, height, mostPixels));
 }
 
 bool startsWith(const std::filesystem::path& path, const std::array<unsigned char, 4>& magic) {
@@ -39,7 +47,7 @@ Floats pick(const PngPicture& picture, int channel) {
 }
 
 StripPicture readPngStrip(const std::filesystem::path& path) {
-  const PngPicture picture = readPng(path);
+  const PngPicture picture = readPng(path, mostPixels);
   const bool grey = picture.channels < 3;
   StripPicture strip;
   strip.red = pick(picture, 0);
@@ -54,6 +62,7 @@ StripPicture readPngStrip(const std::filesystem::path& path) {
 /// R, G, B by name; a file without them is taken for grey by its first channel that is not alpha.
 StripPicture readExrStrip(const std::filesystem::path& path) {
   const ImageFile image = openImage(path);
+  requireSize(path, image.width, image.height);
   std::vector<std::string> names = {"R", "G", "B"};
   for (const std::string& name : names)
     if (!image.findChannel(name)) {
@@ -80,16 +89,12 @@ StripPicture readExrStrip(const std::filesystem::path& path) {
 
 StripPicture readStrip(const std::filesystem::path& path) {
   std::error_code missing;
-  if (!std::filesystem::is_regular_file(path, missing)) refuse(path, "does not exist");
+  if (!std::filesystem::exists(path, missing)) refuse(path, "does not exist");
+  requirePlainFile(path);
   const bool png = startsWith(path, {0x89, 'P', 'N', 'G'});
   if (!png && !startsWith(path, {0x76, 0x2f, 0x31, 0x01}))
     refuse(path, "cannot be read: it is neither a PNG nor an EXR file");
-  StripPicture strip = png ? readPngStrip(path) : readExrStrip(path);
-  if (int64_t{strip.width()} * strip.height() > mostPixels) {
-    refuse(path, fmt::format("is {} x {} pixels; at most {} are allowed", strip.width(),
-                             strip.height(), mostPixels));
-  }
-  return strip;
+  return png ? readPngStrip(path) : readExrStrip(path);
 }
 
 }  // namespace kagefude

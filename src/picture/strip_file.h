@@ -7,8 +7,8 @@
 namespace kagefude {
 
 /// A strip picture as the file holds it, in the file's own colour space. Integer types are scaled
-/// to 0..1. One grey channel fills all three. `alpha` is 1 where the file has none; colours are
-/// not multiplied by it.
+/// to 0..1. One grey channel fills all three. `alpha` is 1 where the file has none; an EXR's
+/// colours are multiplied by it, a PNG's are not.
 struct StripPicture {
   Floats red, green, blue, alpha;
   bool hasAlpha = false;

@@ -54,10 +54,11 @@ struct BatchResult {
   size_t done = 0;
   size_t kept = 0;
   std::vector<FrameFailure> failures;  ///< by index
-  size_t untouched = 0;                ///< not begun, or given up between two stages
-  bool stopped = false;                ///< the stop token was set before all frames were finished
-  size_t mostInFlight = 0;             ///< frames at a time, at most
-  size_t mostMemory = 0;               ///< sum of their estimates, at most
+  std::vector<size_t> lost;  ///< by index; made or kept, and gone since: neither done nor kept
+  size_t untouched = 0;      ///< not begun, or given up between two stages
+  bool stopped = false;      ///< the stop token was set before all frames were finished
+  size_t mostInFlight = 0;   ///< frames at a time, at most
+  size_t mostMemory = 0;     ///< sum of their estimates, at most
 };
 
 /// A frame's work with its types hidden: one object per frame in flight, whose stages are called

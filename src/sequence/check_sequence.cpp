@@ -186,6 +186,7 @@ void summarise(CheckResult& result) {
 
 CheckResult checkSequence(const CheckRequest& request) {
   const std::vector<int> frames = framesOf(request);
+  for (const int frame : frames) existing(request.comped, frame);  // before any is worked on
   ToneColours colours;
   for (const int frame : frames) {
     if (request.unstyled) break;

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "colour/colour.h"
+#include "compositor/frame_plan.h"
+#include "compositor/look_use.h"
 #include "compositor/strip_set.h"
 #include "look/look.h"
 #include "sequence/batch.h"
@@ -47,13 +49,20 @@ class CompBatch {
   ~CompBatch();
 
   const std::vector<FrameJob>& jobs() const { return jobs_; }
-  /// Runs all jobs in the current TBB arena; `onFrame` is never called twice at a time.
+  /// What of the look fitted nothing in all frames, a sentence each; after run(). Empty where
+  /// frames were kept, for what these show is not known.
+  std::vector<std::string> unused() const;
+  /// What the plan has to say beside its jobs, see planFrames.
+  const std::vector<std::string>& notes() const { return notes_; }
+  /// Runs all jobs in the current TBB arena; `onFrame` is never called twice at a time. Frames
+  /// whose outputs were made and are not on the disk any more when all is over come back as `lost`.
   BatchResult run(const std::function<void(const CompEvent&)>& onFrame);
 
  private:
   struct Planned;
   struct Read;
   struct Composed;
+  FramePlan planJob(const FrameJob& job) const;
   /// The frame's plan, made once: when its memory is estimated, and the first when the batch is.
   Planned& planned(size_t index);
   Read read(size_t index);
@@ -61,19 +70,27 @@ class CompBatch {
   void write(size_t index, Composed output) const;
   bool isDone(size_t index);
   bool isUpToDate(size_t index);
+  void addFilesBeside(const FramePlan& plan, Fingerprint& print);
   /// Of everything that decides a frame's pixels. Files are looked at before they are read, so that
   /// one which changes meanwhile makes the frame stale.
   Fingerprint fingerprint(const FrameJob& job) const;
+  /// Of a preview beside the frame, which a change of the view makes stale but not the frame.
+  std::string previewFingerprint(const std::string& frame) const;
 
   const Look& look_;
   CompRequest request_;
+  std::vector<std::string> notes_;
   std::vector<FrameJob> jobs_;
   Colour colour_;
   StripSet strips_;
+  FileDigests digests_;
   Fingerprint common_;                              ///< program, look and its files
+  std::string view_;                                ///< what previews are shown through
   std::vector<std::unique_ptr<Planned>> planned_;   ///< by job, from its plan to its reading
   std::vector<std::vector<std::string>> warnings_;  ///< by job; written by its own stage only
   std::vector<Thumbnail> thumbnails_;               ///< likewise
+  std::vector<LookUse> uses_;                       ///< likewise
+  bool keptSome_ = false;
 };
 
 }  // namespace kagefude

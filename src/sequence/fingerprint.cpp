@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files_read.h"
+#include "base/plain_file.h"
 
 namespace kagefude {
 namespace {
@@ -24,7 +26,7 @@ constexpr int64_t kSamples = 64;
 class OpenFile {
  public:
   explicit OpenFile(const std::filesystem::path& path)
-      : path_(path), file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+      : path_(path), file_(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
     if (file_ < 0 && errno != ENOENT) fail();
   }
   ~OpenFile() {
@@ -65,6 +67,11 @@ class OpenFile {
   int file_;
 };
 
+/// Seconds and nanoseconds apart: together they overflow in the year 2262.
+std::string changeOf(const struct stat& status) {
+  return fmt::format("{}.{:09}", status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
+}
+
 }  // namespace
 
 Fingerprint::Fingerprint() : digest_(32, '0') {}
@@ -91,12 +98,12 @@ Fingerprint& Fingerprint::addFile(std::string_view label, const std::filesystem:
   const OpenFile opened(file);
   if (!opened.exists()) return add("missing", "");
   const struct stat status = opened.status();
-  if (!S_ISREG(status.st_mode))
-    throw InputError(fmt::format("cannot read {}: it is not a regular file", file.string()));
+  if (!S_ISREG(status.st_mode)) requirePlainFile(file);
   const int64_t size = status.st_size;
+  noteFileRead(file);
   add("size", size);
   if (size <= kReadWhole) return add("content", opened.bytes(0, size));
-  add("changed", status.st_mtim.tv_sec * int64_t{1'000'000'000} + status.st_mtim.tv_nsec);
+  add("changed", changeOf(status));
   std::string samples;
   for (int64_t i = 0; i < kSamples; ++i)
     samples += opened.bytes((size - kSample) / (kSamples - 1) * i, kSample);
@@ -104,5 +111,22 @@ Fingerprint& Fingerprint::addFile(std::string_view label, const std::filesystem:
 }
 
 std::string Fingerprint::hex() const { return digest_; }
+
+std::string FileDigests::of(const std::filesystem::path& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0) return Fingerprint().addFile("file", file).hex();
+  const std::string state =
+      fmt::format("{} {} {} {} {}.{:09}", status.st_dev, status.st_ino, status.st_size,
+                  changeOf(status), status.st_ctim.tv_sec, status.st_ctim.tv_nsec);
+  {
+    std::lock_guard lock(mutex_);
+    const auto known = known_.find(file);
+    if (known != known_.end() && known->second.state == state) return known->second.digest;
+  }
+  const std::string digest = Fingerprint().addFile("file", file).hex();
+  std::lock_guard lock(mutex_);
+  known_[file] = {state, digest};
+  return digest;
+}
 
 }  // namespace kagefude

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -36,6 +38,22 @@ class Fingerprint {
 
  private:
   std::string digest_;
+};
+
+/// Digests of files that many frames share (meshes of things that do not deform), each worked out
+/// once in a run and again only when the file has changed. Thread-safe.
+class FileDigests {
+ public:
+  /// As Fingerprint::addFile.
+  std::string of(const std::filesystem::path& file);
+
+ private:
+  struct Known {
+    std::string state;  ///< identity, size and times
+    std::string digest;
+  };
+  std::mutex mutex_;
+  std::map<std::filesystem::path, Known> known_;
 };
 
 }  // namespace kagefude

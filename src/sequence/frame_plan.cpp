@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/files_read.h"
 #include "base/nearest_name.h"
 
 namespace kagefude {
@@ -15,6 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 using FrameFiles = std::map<int, fs::path>;
+
+/// With --skip-bad-frames each missing frame is a failed one; more of them than this are no bad
+/// frames but a slip.
+constexpr size_t mostBadFrames = 100'000;
 
 std::vector<int> framesOf(const FrameFiles& files) {
   std::vector<int> frames;
@@ -70,7 +75,8 @@ std::vector<int> withoutGaps(const std::vector<int>& frames, const FramePattern&
 /// Plans one request; the steps follow each other in run().
 class Planner {
  public:
-  explicit Planner(const PlanRequest& request) : request_(request) {
+  Planner(const PlanRequest& request, std::vector<std::string>* notes)
+      : request_(request), notes_(notes) {
     const auto hasView = [](const FramePattern& pattern) { return pattern.hasView(); };
     if (std::any_of(request.inputs.begin(), request.inputs.end(), hasView) ||
         std::any_of(request.outputs.begin(), request.outputs.end(), hasView)) {
@@ -84,8 +90,8 @@ class Planner {
     scan();
     chooseFrames();
     checkOutputPlaces();
+    checkMissing();
     std::vector<FrameJob> jobs = makeJobs();
-    checkMissing(jobs);
     checkOutputNames(jobs);
     const ChunkSpan span = chunkSpan(jobs.size(), request_.chunk);
     jobs.resize(span.last);
@@ -152,6 +158,16 @@ class Planner {
     for (const FrameFiles& files : files_)
       for (const auto& [frame, path] : files) all.insert(frame);
     frames_ = withoutGaps({all.begin(), all.end()}, *leadPattern);
+    noteSpacing(*leadPattern);
+  }
+
+  /// A shot on twos, or one that lacks every other frame: the names do not tell, so it is said.
+  void noteSpacing(const FramePattern& pattern) {
+    if (!notes_ || frames_.size() < 2 || frames_[1] == frames_[0] + 1) return;
+    notes_->push_back(
+        fmt::format("{} has the frames {} and none between them; if there should be "
+                    "more, name them with --frames",
+                    pattern.text(), describeFrames(frames_)));
   }
 
   void checkOutputPlaces() const {
@@ -201,24 +217,25 @@ class Planner {
     job->inputs.push_back(std::move(path));
   }
 
-  void checkMissing(const std::vector<FrameJob>& jobs) const {
-    if (request_.skipBadFrames) return;
+  /// Before any job is made: a slip in --frames may ask for millions.
+  void checkMissing() const {
     for (size_t i = 0; i < request_.inputs.size(); ++i)
-      for (size_t v = 0; v < views_.size(); ++v) checkMissingInput(i, v, jobs);
+      for (size_t v = 0; v < views_.size(); ++v) checkMissingInput(i, v);
   }
 
-  void checkMissingInput(size_t input, size_t view, const std::vector<FrameJob>& jobs) const {
+  void checkMissingInput(size_t input, size_t view) const {
     const FramePattern& pattern = request_.inputs[input];
     if (!pattern.hasFrame()) {
-      const FrameJob& job = jobs[view];
-      if (job.missing == job.inputs[input])
-        throw InputError(
-            fmt::format("{} does not exist; {}", job.missing->string(), folderHint(*job.missing)));
+      const fs::path path = pattern.path(frames_.front(), views_[view]);
+      std::error_code ignored;
+      if (!request_.skipBadFrames && !fs::exists(path, ignored))
+        throw InputError(fmt::format("{} does not exist; {}", path.string(), folderHint(path)));
       return;
     }
     const FrameFiles& files = filesOf(input, view);
     const std::vector<int> missing = difference(frames_, files);
     if (missing.empty()) return;
+    if (request_.skipBadFrames && missing.size() <= mostBadFrames) return;
     if (files.empty())
       throw InputError(fmt::format("no file fits {}; {}", quoted(pattern, views_[view]),
                                    folderHint(pattern.path(frames_.front(), views_[view]))));
@@ -233,17 +250,16 @@ class Planner {
     const auto normal = [](const fs::path& path) {
       return fs::absolute(path).lexically_normal().string();
     };
+    FileSet files;
     for (const FrameJob& job : jobs)
-      for (const fs::path& input : job.inputs) inputs.insert(normal(input));
+      for (const fs::path& input : job.inputs) {
+        inputs.insert(normal(input));
+        files.add(input);
+      }
     std::set<std::string> outputs;
     for (const FrameJob& job : jobs)
       for (const fs::path& output : job.outputs) {
-        const bool alias =
-            std::any_of(job.inputs.begin(), job.inputs.end(), [&](const auto& input) {
-              std::error_code ignored;
-              return fs::equivalent(input, output, ignored);
-            });
-        if (alias || inputs.contains(normal(output)))
+        if (files.find(output) || inputs.contains(normal(output)))
           throw UsageError(fmt::format("the output {} would overwrite an input", output.string()));
         if (!outputs.insert(normal(output)).second)
           throw UsageError(fmt::format("two outputs have one name: {}", output.string()));
@@ -251,6 +267,7 @@ class Planner {
   }
 
   const PlanRequest& request_;
+  std::vector<std::string>* notes_;
   std::vector<std::string> views_;
   std::vector<FrameFiles> files_;  ///< by input, then view
   std::vector<int> frames_;
@@ -262,6 +279,8 @@ std::string FrameJob::name() const {
   return view.empty() ? fmt::format("frame {}", frame) : fmt::format("frame {} {}", frame, view);
 }
 
-std::vector<FrameJob> planFrames(const PlanRequest& request) { return Planner(request).run(); }
+std::vector<FrameJob> planFrames(const PlanRequest& request, std::vector<std::string>* notes) {
+  return Planner(request, notes).run();
+}
 
 }  // namespace kagefude

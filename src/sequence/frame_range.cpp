@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <limits>
 #include <optional>
+#include <unordered_set>
 
 #include "base/error.h"
 
@@ -104,17 +105,24 @@ std::vector<std::string_view> splitItems(std::string_view text) {
   return items;
 }
 
+/// The first mention of each. Frames of a range lie close together, so a bit for each of the
+/// numbers between the smallest and the largest is less than a sorted list would be.
 std::vector<int> eachOnce(const std::vector<int>& frames) {
-  std::vector<uint32_t> order(frames.size());
-  for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return frames[a] != frames[b] ? frames[a] < frames[b] : a < b;
-  });
-  const auto same = [&](uint32_t a, uint32_t b) { return frames[a] == frames[b]; };
-  order.erase(std::unique(order.begin(), order.end(), same), order.end());
-  std::sort(order.begin(), order.end());
+  const auto [least, most] = std::minmax_element(frames.begin(), frames.end());
+  const int64_t first = *least, span = int64_t{*most} - first + 1;
   std::vector<int> result;
-  for (const uint32_t i : order) result.push_back(frames[i]);
+  if (span <= static_cast<int64_t>(8 * kMostFrames)) {
+    std::vector<bool> seen(static_cast<size_t>(span));
+    for (const int frame : frames) {
+      const auto at = static_cast<size_t>(frame - first);
+      if (!seen[at]) result.push_back(frame);
+      seen[at] = true;
+    }
+    return result;
+  }
+  std::unordered_set<int> seen;
+  for (const int frame : frames)
+    if (seen.insert(frame).second) result.push_back(frame);
   return result;
 }
 
@@ -129,7 +137,7 @@ size_t runLength(const std::vector<int>& frames, size_t first) {
 }
 
 std::vector<std::string> rangeItems(std::vector<int> frames, std::vector<size_t>* lengths) {
-  std::sort(frames.begin(), frames.end());
+  if (!std::is_sorted(frames.begin(), frames.end())) std::sort(frames.begin(), frames.end());
   frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
   std::vector<std::string> items;
   for (size_t i = 0; i < frames.size();) {

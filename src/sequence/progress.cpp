@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/printable.h"
 
 namespace kagefude {
 namespace {
@@ -44,7 +45,7 @@ class CountingSink : public ProgressSink {
 
  protected:
   virtual void show(const FrameProgress& progress) = 0;
-  virtual void line(const std::string& text) { out_ << text << '\n' << std::flush; }
+  virtual void line(const std::string& text) { out_ << printable(text) << '\n' << std::flush; }
 
   int percent() const { return total_ == 0 ? 100 : static_cast<int>(finished_ * 100 / total_); }
   std::string count() const { return fmt::format("{} of {}", finished_, total_); }
@@ -125,7 +126,7 @@ class BarSink : public CountingSink {
 
   void end(const std::string& summary, bool) override {
     erase();
-    out_ << summary << '\n' << std::flush;
+    out_ << printable(summary) << '\n' << std::flush;
   }
 
  protected:
@@ -137,7 +138,7 @@ class BarSink : public CountingSink {
 
   void line(const std::string& text) override {
     erase();
-    out_ << text << '\n';
+    out_ << printable(text) << '\n';
     draw(last_);
   }
 
@@ -155,7 +156,7 @@ class BarSink : public CountingSink {
                        : fmt::format("  {:.1f} s/frame", each);
     text += fmt::format("  left {}", formatDuration(total_ == finished_ ? 0 : left));
     if (failed_ > 0) text += fmt::format("  {} failed", failed_);
-    if (!name.empty()) text += "  " + name;
+    if (!name.empty()) text += "  " + printable(name);
     const int room = std::min(width_ - 3 - static_cast<int>(text.size()), 32);
     if (room >= 4) {
       const int full = total_ == 0 ? room : static_cast<int>(finished_ * room / total_);

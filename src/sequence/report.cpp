@@ -100,6 +100,8 @@ Report::Report(fs::path folder, ReportHeader header, WriteImage writeImage)
   if (failed)
     throw OutputError(
         fmt::format("cannot make the report in {}: {}", folder_.string(), failed.message()));
+  removeLeftovers(folder_);
+  removeLeftovers(folder_ / "thumbs");
 }
 
 void Report::add(const ReportFrame& frame, const Thumbnail& picture) {

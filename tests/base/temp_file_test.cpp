@@ -1,6 +1,8 @@
 #include "base/temp_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -157,6 +159,53 @@ TEST(TempFile, LeftoversOfAnOlderProcessWithOurNumberAreRemoved) {
   folder.write(own);
   EXPECT_EQ(removeLeftovers(folder.path()).size(), 1u);
   EXPECT_TRUE(removeLeftovers(folder / "none").empty());
+}
+
+// Age was taken for death: a task that was suspended for a quarter of an hour lost its batch.
+TEST(TempFile, ASuspendedWriterKeepsItsFileHoweverOldItIs) {
+  const TestFolder folder;
+  const pid_t child = fork();
+  if (child == 0) {
+    const TempFile file(folder / "a.exr");
+    raise(SIGSTOP);
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, WUNTRACED);
+  ASSERT_TRUE(WIFSTOPPED(status));
+  ASSERT_EQ(folder.entries(), 1u);
+  const fs::path file = fs::directory_iterator(folder.path())->path();
+  fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(24));
+  EXPECT_TRUE(removeLeftovers(folder.path()).empty());
+  EXPECT_TRUE(fs::exists(file));
+  kill(child, SIGKILL);
+  waitpid(child, &status, 0);
+  EXPECT_EQ(removeLeftovers(folder.path()).size(), 1u);
+}
+
+TEST(TempFile, AWriterOnAnotherHostKeepsItsFileWhileItsLockIsSeen) {
+  const TestFolder folder;
+  const std::string file = folder.write(".c.exr.kagefude-elsewhere-1-0.tmp");
+  fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(24));
+  const int writer = open(file.c_str(), O_RDWR);
+  ASSERT_EQ(flock(writer, LOCK_EX), 0);
+  EXPECT_TRUE(removeLeftovers(folder.path()).empty());
+  close(writer);
+  EXPECT_EQ(removeLeftovers(folder.path()).size(), 1u);
+}
+
+TEST(TempFile, TheFirstFileFinishedInAFolderClearsIt) {
+  const TestFolder folder;
+  const std::string file = folder.write(".c.exr.kagefude-elsewhere-1-0.tmp");
+  fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(24));
+  writeFileAtomically(folder / "index.html", "page");
+  EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(TempFile, LinksToOpenDescriptorsAreNotReplaced) {
+  EXPECT_THROW(TempFile("/dev/stdout"), OutputError);
+  EXPECT_THROW(TempFile("/proc/self/fd/1"), OutputError);
+  EXPECT_THROW(TempFile("/dev/none.exr"), OutputError);
 }
 
 TEST(TempFile, AnInterruptRemovesThemAllAndTakesNoMore) {

@@ -43,6 +43,12 @@ def instance(name, shape, x, **more):
 TRIANGLE = mesh([(0, 0, 0), (1, 0, 0), (0, 0.1, 0)], [(0, 1, 2)])
 
 
+class Names:
+    """Names as they are."""
+    def of(self, item):
+        return item.name
+
+
 class Casters(unittest.TestCase):
     def test_single_floats_come_back_exactly(self):
         lines = casters.obj_text(TRIANGLE).splitlines()
@@ -58,7 +64,7 @@ class Casters(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             graph = SimpleNamespace(object_instances=[instance("B", TRIANGLE, 2), hidden, lamp,
                                                       empty, instance("A", TRIANGLE, 1)])
-            entries = casters.CasterFiles(folder, "shot.").write(graph)
+            entries = casters.CasterFiles(folder, "shot.").write(graph, Names())
             self.assertEqual([entry["object"] for entry in entries], ["A", "B"])
             self.assertEqual(entries[0]["file"], entries[1]["file"])
             self.assertEqual(os.listdir(os.path.join(folder, "shot.casters")),

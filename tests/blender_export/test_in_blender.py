@@ -192,11 +192,14 @@ class Export(unittest.TestCase):
         for light in self.document["lights"]:
             u, v = light["axes"]["u"], light["axes"]["v"]
             offset = light["masks"]["offset"]
-            self.assertAlmostEqual(offset, light["radius"], 6)
+            offset_v = light["masks"].get("offset_v", offset)
+            # An area has the ellipse of its own shape and area.
+            self.assertAlmostEqual(math.sqrt(offset * offset_v), light["radius"], 5)
+            self.assertEqual(offset_v != offset, light["type"] == "area")
             if light["type"] == "sun":
                 continue
             for sample in light["masks"]["samples"]:
-                wanted = [p + offset * (sample["uv"][0] * a + sample["uv"][1] * b)
+                wanted = [p + offset * sample["uv"][0] * a + offset_v * sample["uv"][1] * b
                           for p, a, b in zip(light["position"], u, v)]
                 for a, b in zip(sample["position"], wanted):
                     self.assertAlmostEqual(a, b, 5)

@@ -88,7 +88,7 @@ class MaskBackends(BlenderCase):
         shot = self.build(SCENE + lines)
         said = self.export(shot, "--masks", "disc:5", "--masks-by", by, "--light", "Spot",
                            "--light", "Sun")
-        return self.masks("out/s")[1], [note for note in self.notes(said) if "masks" in note]
+        return self.masks("out/s")[1], [note for note in self.notes(said) if "masks of light" in note]
 
     def assert_layers(self, lines, words, lights=("Spot", "Sun"), by="auto"):
         ways, notes = self.ways(lines, by)
@@ -144,7 +144,8 @@ if hasattr(bpy.data.objects["Spot"], "light_linking"):
         else:
             self.assert_layers("", "no Raycast node (5.1 has)", by="raycast")
 
-    def test_objects_that_cast_no_shadow_are_passed_by_rays_too(self):
+    def test_objects_that_cast_no_shadow_fall_back(self):
+        """Rays that pass them start anew behind them, and missed 14 of 6912 pixels."""
         shot = self.build(SCENE + """
 for name in ("Slab", "Ball"):
     bpy.data.objects[name].visible_shadow = False
@@ -152,8 +153,8 @@ bpy.data.objects["Box"].visible_camera = False
 """)
         wanted, _, _ = self.exported(shot, "layers")
         found, ways, _ = self.exported(shot, "auto")
-        self.assertNotIn("layers", ways.values())
-        self.assert_close(found, wanted, 1e-3)
+        self.assertEqual(set(ways.values()), {"layers"})
+        self.assert_close(found, wanted, 0)
 
     def test_traced_shadows_in_place_of_masks(self):
         shot = self.build(SCENE)

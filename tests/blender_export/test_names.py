@@ -45,6 +45,25 @@ class OutputNames(unittest.TestCase):
                 self.assertLessEqual(len(layer.encode()), output_names.LONGEST_LAYER)
 
 
+class Named:
+    def __init__(self, name, library=None):
+        self.name, self.original = name, self
+        self.name_full = f"{name} [{library}]" if library else name
+
+
+class OtherKind(Named):
+    pass
+
+
+class UniqueNames(unittest.TestCase):
+    def test_only_names_that_come_twice_carry_their_library(self):
+        items = [Named("Body"), Named("Body", "cast.blend"), Named("Body", "crowd.blend"),
+                 Named("Hat", "cast.blend")]
+        names = exporter("unique_names").UniqueNames(items, [OtherKind("Hat")])
+        self.assertEqual([names.of(item) for item in items],
+                         ["Body", "Body [cast.blend]", "Body [crowd.blend]", "Hat"])
+
+
 class Cryptomatte(unittest.TestCase):
     def test_known_hashes(self):
         # Reference values of MurmurHash3_x86_32.

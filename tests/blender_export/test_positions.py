@@ -106,7 +106,7 @@ class Positions(unittest.TestCase):
 
 class AutoOffset(unittest.TestCase):
     def offset(self, kind, radius=0.3, half_length=1.2, distance=10.0, subject=2.0):
-        return light_offset.auto_offset(kind, "Key", radius, half_length, distance, subject)
+        return light_offset.auto_offset(kind, radius, half_length, distance, subject)
 
     def test_disc_and_line_take_the_lights_own_size(self):
         self.assertEqual(self.offset("disc"), 0.3)
@@ -120,9 +120,17 @@ class AutoOffset(unittest.TestCase):
         self.assertAlmostEqual(self.offset("pair", radius=5.0, distance=1.0), 0.25)
         self.assertAlmostEqual(self.offset("pair", subject=0.0), 5.0)
 
-    def test_a_light_without_size_is_refused_by_name(self):
-        with self.assertRaisesRegex(errors.ExportError, "light 'Key' has no size"):
-            self.offset("disc", radius=0.0)
+    def test_a_light_that_shrinks_to_a_point_keeps_its_masks_apart(self):
+        for kind in ("disc", "line", "pair"):
+            offset = self.offset(kind, radius=0.0, half_length=0.0)
+            self.assertTrue(0.0 < offset < 1e-3, (kind, offset))
+
+    def test_a_disc_of_masks_follows_the_shape_of_an_area(self):
+        self.assertEqual(light_offset.area_offsets(0.5, "ellipse", 1.25, 0.2), (1.25, 0.2))
+        u, v = light_offset.area_offsets(0.378, "rectangle", 0.75, 0.15)
+        self.assertAlmostEqual(math.pi * u * v, 1.5 * 0.3)
+        self.assertAlmostEqual(u / v, 5.0)
+        self.assertEqual(light_offset.area_offsets(0.7, "rectangle", 0.6, 0.6), (0.7, 0.7))
 
 
 if __name__ == "__main__":

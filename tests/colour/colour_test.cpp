@@ -70,6 +70,61 @@ TEST_F(ColourTest, ConfigsThatCannotBeUsedAreInputErrors) {
                  "none.ocio");
 }
 
+/// A studio's configuration: a view whose table is chosen by a context variable, in a subfolder.
+std::filesystem::path studioConfig(const TemporaryFolder& folder) {
+  std::string text(builtInColourConfig());
+  const std::string views = "displays:\n  sRGB:\n";
+  const size_t at = text.find(views);
+  EXPECT_NE(at, std::string::npos);
+  text.insert(at + views.size(), "    - !<View> {name: Graded, colorspace: graded}\n");
+  const std::string active = "active_views: [Standard, Raw";
+  text.insert(text.find(active) + active.size(), ", Graded");
+  text.insert(0, "search_path: luts\n");
+  const size_t first = text.find("ocio_profile_version");
+  const size_t end = text.find('\n', first) + 1;
+  const std::string version = text.substr(first, end - first);
+  text.erase(first, end - first);
+  text.insert(0, version);
+  text +=
+      "\n  - !<ColorSpace>\n    name: graded\n    bitdepth: 32f\n    isdata: false\n"
+      "    from_reference: !<FileTransform> {src: \"${KAGEFUDE_SHOT}/grade.spi1d\", "
+      "interpolation: linear}\n";
+  writeText(folder / "studio.ocio", text);
+  for (const char* shot : {"a", "b"}) {
+    std::filesystem::create_directories(folder / "luts" / shot);
+    writeText(folder / "luts" / shot / "grade.spi1d",
+              std::string("Version 1\nFrom 0.0 1.0\nLength 2\nComponents 1\n{\n0.0\n") +
+                  (*shot == 'a' ? "0.5" : "0.25") + "\n}\n");
+  }
+  return folder / "studio.ocio";
+}
+
+TEST_F(ColourTest, WhatIsNotInUseNeedsNoVariable) {
+  const TemporaryFolder folder;
+  unsetenv("KAGEFUDE_SHOT");
+  const Colour colour(studioConfig(folder).string());
+  Floats r(1, 1, 0.5f), g(1, 1, 0.5f), b(1, 1, 0.5f);
+  colour.toWorking(r, g, b, "sRGB");
+  colour.toDisplay(r, g, b, "sRGB", "Raw");
+  EXPECT_FALSE(colour.toDisplayId("sRGB", "Raw").empty());
+  expectContains(messageOf<InputError>([&] { colour.toDisplayId("sRGB", "Graded"); }), "grade");
+}
+
+TEST_F(ColourTest, AnIdTellsWhatATransformDoes) {
+  const TemporaryFolder folder;
+  const std::string config = studioConfig(folder).string();
+  const auto graded = [&](const char* shot) {
+    setenv("KAGEFUDE_SHOT", shot, 1);
+    return Colour(config).toDisplayId("sRGB", "Graded");
+  };
+  const std::string first = graded("a");
+  EXPECT_EQ(graded("a"), first);
+  EXPECT_NE(graded("b"), first) << "a context variable";
+  unsetenv("KAGEFUDE_SHOT");
+  EXPECT_EQ(Colour(config).toWorkingId("sRGB"), Colour().toWorkingId("sRGB"));
+  EXPECT_NE(Colour().toWorkingId("sRGB"), Colour().toWorkingId("Raw"));
+}
+
 TEST_F(ColourTest, ServesSeveralThreadsFromItsFirstCallOn) {
   // OCIO lists displays when first asked; two threads that asked at once found an empty list.
   for (int round = 0; round < 500; ++round) {

@@ -135,7 +135,7 @@ frame=$data/shot.0001.exr
 expect_error 'did you mean Floor?' "$work/plain.toml" "$frame" --set shadow.method=planar \
   --set shadow.receiver=Flor
 expect_error 'wants shadow.receiver' "$work/plain.toml" "$frame" --set shadow.method=blob
-expect_error 'Ball is not flat' "$work/plain.toml" "$frame" --set shadow.method=planar \
+expect_error 'the receiver Ball of shadow.receiver is not flat' "$work/plain.toml" "$frame" --set shadow.method=planar \
   --set shadow.receiver=Ball
 expect_error 'shadow.places is 4, outside its range 5 to 65' "$work/plain.toml" "$frame" \
   --set shadow.method=places --set shadow.places=4

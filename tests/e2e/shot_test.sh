@@ -30,6 +30,43 @@ oiiotool "$work/lit.exr" --ch visibility.Key -o "$work/seen.exr"
 check "a lamp without shadow casts one" oiiotool --fail 0 --diff "$work/seen.exr" "$work/ones.exr"
 check "a lamp without shadow does not shade" test 1 = "$(oiiotool --fail 0 --failpercent 90 --diff "$work/wide.exr" "$work/lit.exr" >/dev/null && echo 1)"
 
+# Things that are cut or see-through are not painted: the beauty stands there.
+cp "$data/shot.0001.json" "$work/in/"
+edit 'for thing in document["objects"]: thing["painted"] = False'
+printf '[output]\ncolour = "float"\nlayers = ["visibility.Key"]\n' >"$work/look.toml"
+comp bare.exr
+oiiotool "$work/in/shot.0001.exr" --ch beauty.Combined.R,beauty.Combined.G,beauty.Combined.B --chnames R,G,B -o "$work/beauty.exr"
+oiiotool "$work/bare.exr" --ch R,G,B -o "$work/bare_rgb.exr"
+check "what is not painted is not the beauty" oiiotool --fail 1e-6 --diff "$work/beauty.exr" "$work/bare_rgb.exr"
+
+# Drawn lines lie over everything.
+cp "$data/shot.0001.json" "$work/in/"
+edit 'document["layers"]["lines"] = "beauty.Freestyle"'
+check "a missing line layer is not named" test 1 = "$(exit_code "$kagefude" comp "$work/look.toml" "$work/in/shot.0001.exr" -o "$work/x.exr" --progress none)"
+check "a missing line layer is not named" grep -qF 'has no channel beauty.Freestyle.R' "$work/log"
+oiiotool "$data/shot.0001.exr" --create 256x144 4 --fill:color=0.25,0.5,0,1 128x144+0+0 \
+  --chnames beauty.Freestyle.R,beauty.Freestyle.G,beauty.Freestyle.B,beauty.Freestyle.A --chappend -d float -o "$work/in/shot.0001.exr"
+comp lines.exr
+cp "$data/shot.0001.exr" "$work/in/" && cp "$data/shot.0001.json" "$work/in/"
+comp plain.exr
+half() { oiiotool "$1" --ch R,G,B --crop 128x144+$2+0 -o "$3"; }
+half "$work/lines.exr" 128 "$work/a.exr" && half "$work/plain.exr" 128 "$work/b.exr" && half "$work/lines.exr" 0 "$work/c.exr"
+oiiotool "$work/c.exr" --fill:color=0.25,0.5,0 128x144+0+0 -o "$work/d.exr"
+check "beside the lines the picture changes" oiiotool --fail 0 --diff "$work/a.exr" "$work/b.exr"
+check "lines are not whole" oiiotool --fail 0 --diff "$work/c.exr" "$work/d.exr"
+
+# A light without size has its one mask; a stretched disc is another light than a round one.
+edit 'masks = document["lights"][0]["masks"]; masks["arrangement"] = "hard"; masks["samples"] = masks["samples"][:1]'
+comp hard.exr
+oiiotool "$work/hard.exr" --ch visibility.Key -o "$work/a.exr"
+oiiotool "$work/a.exr" --subc 0.5 --abs --addc 0.5 -o "$work/b.exr"
+oiiotool "$work/b.exr" --mulc 0 --addc 1 -o "$work/c.exr"
+check "a hard shadow is not hard" oiiotool --fail 0 --diff "$work/b.exr" "$work/c.exr"
+cp "$data/shot.0001.json" "$work/in/"
+edit 'masks = document["lights"][0]["masks"]; masks["offset_v"] = 0.05 * masks["offset"]'
+comp stretched.exr
+check "a stretched disc is taken for a round one" test -z "$(oiiotool --fail 0 --diff "$work/plain.exr" "$work/stretched.exr" >/dev/null && echo same)"
+
 # Frames without a JSON: what is seen of a thing does not matter once the look says how large the scene is.
 printf '[[light]]\nname = "Key"\nposition = [-3, -3, 5]\n[[style]]\nobject = "*"\nstrip = "builtin:fine"\n[frame]\nlayer = "data"\nbeauty_layer = "beauty"\n' >"$work/look.toml"
 rm "$work/in/shot.0001.json"

@@ -55,26 +55,34 @@ TEST(ImageFile, ReadsWindowsChannelsAndText) {
   EXPECT_FALSE(file.text("nobody"));
 }
 
-TEST(ImageFile, BareChannelsOfLaterPartsTakeThePartsName) {
+TEST(ImageFile, BareChannelsOfPartsTakeThePartsNameTheFirstToo) {
   const TemporaryFolder folder;
   writeTwoParts(folder / "two.exr", Imath::Box2i({0, 0}, {3, 2}));
   const ImageFile file = openImage(folder / "two.exr");
-  EXPECT_EQ(file.channelNames(), (std::vector<std::string>{"R", "diffuse.R"}));
-  const auto planes = readFloats(file, std::vector<std::string>{"diffuse.R", "R"});
+  EXPECT_EQ(file.channelNames(), (std::vector<std::string>{"rgba.R", "diffuse.R"}));
+  const auto planes = readFloats(file, std::vector<std::string>{"diffuse.R", "rgba.R"});
   EXPECT_EQ(planes[0](3, 2), 6.0f);
   EXPECT_EQ(planes[1](0, 0), 5.0f);
 }
 
-TEST(ImageFile, PartsOfDifferentWindowsCannotBeUsedTogether) {
+TEST(ImageFile, PartsOfDifferentWindowsAreJoinedWithZerosAround) {
   const TemporaryFolder folder;
-  writeTwoParts(folder / "two.exr", Imath::Box2i({-1, 0}, {3, 2}));
+  writeTwoParts(folder / "two.exr", Imath::Box2i({-1, 1}, {2, 2}));
   const ImageFile file = openImage(folder / "two.exr");
-  EXPECT_EQ(readFloats(file, std::vector<std::string>{"diffuse.R"})[0].width(), 5);
-  const auto message = messageOf<InputError>([&] {
-    readFloats(file, std::vector<std::string>{"R", "diffuse.R"});
-  });
-  expectContains(message, "R covers 4 x 3 pixels from (0, 0)");
-  expectContains(message, "diffuse.R covers 5 x 3 from (-1, 0)");
+  EXPECT_EQ(file.dataWindow, (Window{-1, 0, 5, 3}));
+  const auto planes = readFloats(file, std::vector<std::string>{"rgba.R", "diffuse.R"});
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 5; ++x) {
+      EXPECT_EQ(planes[0](x, y), x > 0 ? 5.0f : 0.0f) << x << " " << y;
+      EXPECT_EQ(planes[1](x, y), x < 4 && y > 0 ? 6.0f : 0.0f) << x << " " << y;
+    }
+}
+
+TEST(ImageFile, PartsFarApartClaimWhatNoneOfThemDoes) {
+  const TemporaryFolder folder;
+  writeTwoParts(folder / "far.exr", Imath::Box2i({90000, 90000}, {90001, 90001}));
+  expectContains(messageOf<InputError>([&] { openImage(folder / "far.exr"); }),
+                 "far.exr claims 90002 x 90002 pixels");
 }
 
 TEST(ImageFile, MissingAndForeignFilesAreNamed) {

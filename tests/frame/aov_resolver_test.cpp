@@ -1,6 +1,7 @@
 #include "frame/aov_resolver.h"
 
 #include "frame/frame_fixtures.h"
+#include "frame/frame_view.h"
 
 namespace kagefude {
 namespace {
@@ -121,6 +122,13 @@ TEST_F(AovResolver, MissingPassListsLayersAndPasses) {
                  "with frame.position");
 }
 
+TEST_F(AovResolver, MissingPassListsThePassesThatNoTableKnows) {
+  const auto file = fileOf(xyz("N") + Names{"WPP.R", "WPP.G", "WPP.B", "mask.0.Y"});
+  const auto message = messageOf<InputError>([&] { requireAov(file, {}, AovKind::position); });
+  expectContains(message, "passes without a layer: N and WPP; not known by name: WPP");
+  expectContains(message, "name it with frame.position = \"WPP\"");
+}
+
 TEST_F(AovResolver, NearMissesAreNamed) {
   const auto message = messageOf<InputError>(
       [&] { requireAov(fileOf(xyz("ViewLayer.Positoin")), {}, AovKind::position); });
@@ -133,11 +141,15 @@ TEST_F(AovResolver, NearMissesAreNamed) {
 }
 
 TEST_F(AovResolver, ViewsAreKeptApart) {
-  const auto file = fileOf(xyz("L.Position.left") + xyz("L.Position.right"));
-  AovNames names;
-  EXPECT_EQ(requireAov(file, names, AovKind::position).channels, xyz("L.Position.left"));
-  names.view = "right";
-  EXPECT_EQ(requireAov(file, names, AovKind::position).channels, xyz("L.Position.right"));
+  fileOf(xyz("L.Position.left") + xyz("L.Position.right"));
+  const auto inFile = [&](const std::string& view) {
+    const ImageFile file = openFrame(folder_ / "shot.0012.exr", view);
+    const Aov aov = requireAov(file, {}, AovKind::position);
+    EXPECT_EQ(aov.channels, xyz("L.Position"));
+    return file.findChannel(aov.channels.front())->nameInPart;
+  };
+  EXPECT_EQ(inFile(""), "L.Position.left.X");
+  EXPECT_EQ(inFile("right"), "L.Position.right.X");
 }
 
 TEST_F(AovResolver, CryptomatteChannelsComeByRank) {

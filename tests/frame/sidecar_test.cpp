@@ -139,6 +139,37 @@ TEST_F(SidecarTest, ReadsLampsWithoutShadowAndAreas) {
   EXPECT_EQ(light.area->halfV, 0.2);
 }
 
+TEST_F(SidecarTest, ReadsStretchedDiscsHardMasksAndWhatIsNotPainted) {
+  json changed = example();
+  EXPECT_EQ(read(changed).lights[0].masks->offsetV, 0.3) << "round";
+  EXPECT_TRUE(read(changed).objects[0].painted);
+  changed["lights"][0]["masks"]["offset_v"] = 0.1;
+  changed["objects"][0]["painted"] = false;
+  changed["layers"]["lines"] = "beauty.Freestyle";
+  const Sidecar sidecar = read(changed);
+  EXPECT_EQ(sidecar.lights[0].masks->offsetV, 0.1);
+  EXPECT_FALSE(sidecar.objects[0].painted);
+  EXPECT_EQ(sidecar.linesLayer, "beauty.Freestyle");
+  changed["lights"][0]["masks"]["arrangement"] = "hard";
+  expectContains(messageOf<InputError>([&] { read(changed); }), "should be a list of 1");
+  changed["lights"][0]["masks"]["samples"].erase(1);
+  EXPECT_EQ(read(changed).lights[0].masks->arrangement, MaskArrangement::hard);
+}
+
+TEST_F(SidecarTest, SomeoneElsesJsonIsNotOurs) {
+  for (const char* text : {R"({"asset": "x"})", "[1, 2]", "7"}) {
+    writeText(folder_ / "shot.0012.json", text);
+    EXPECT_FALSE(findSidecar(folder_ / "shot.0012.exr")) << text;
+  }
+  writeText(folder_ / "shot.0012.json", R"({"kagefude": 1, "fra)");
+  EXPECT_THROW(findSidecar(folder_ / "shot.0012.exr"), InputError) << "ours may be cut";
+}
+
+TEST_F(SidecarTest, DepthIsBound) {
+  writeText(folder_ / "shot.0012.json", std::string(1 << 20, '['));
+  EXPECT_THROW(findSidecar(folder_ / "shot.0012.exr"), InputError);
+}
+
 TEST_F(SidecarTest, StandsBesideItsImage) {
   EXPECT_FALSE(findSidecar(folder_ / "shot.0012.exr"));
   read(example());

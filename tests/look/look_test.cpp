@@ -150,5 +150,17 @@ TEST_F(LookFile, HighestPriorityHoldsThenTheFirst) {
   EXPECT_EQ(chooseStyle(look.styles, [](const StyleParams&) { return false; }), nullptr);
 }
 
+TEST_F(LookFile, TwoLightsOfOneNameAreRefused) {
+  const std::string text = "[[light]]\nname = \"Key\"\n\n[[light]]\nname = \"Key\"\n";
+  EXPECT_EQ(errorOf(text), "a.toml:4: there are two [[light]] named Key");
+}
+
+TEST_F(LookFile, WhatIsNoFileIsNoLook) {
+  EXPECT_THROW(readLook(folder_, {}), LookError);
+  EXPECT_THROW(readLook("/dev/zero", {}), LookError);
+  EXPECT_THROW(readLook(folder_ / "none.toml", {}), LookError);
+  EXPECT_TRUE(readLook("/dev/null", {}).styles.empty()) << "what nothing is called";
+}
+
 }  // namespace
 }  // namespace kagefude

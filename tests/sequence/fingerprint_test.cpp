@@ -1,6 +1,8 @@
 #include "sequence/fingerprint.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "base/error.h"
 #include "test_folder.h"
@@ -73,6 +75,32 @@ TEST(Fingerprint, MissingAndUnreadableFiles) {
   const std::string missing = ofFile(folder / "a.exr");
   EXPECT_NE(missing, ofFile(folder.write("a.exr", "")));
   EXPECT_THROW(ofFile(folder.path().string()), InputError);
+}
+
+TEST(Fingerprint, TimesAfter2262DoNotOverflow) {
+  const TestFolder folder;
+  const std::string file = folder.write("a.exr", std::string((1 << 20) + 1, 'x'));
+  const auto setYear = [&](int64_t seconds) {
+    const timespec times[2] = {{seconds, 0}, {seconds, 0}};
+    ASSERT_EQ(utimensat(AT_FDCWD, file.c_str(), times, 0), 0);
+  };
+  setYear(10'413'792'000);  // 2300
+  const std::string first = ofFile(file);
+  setYear(10'413'792'001);
+  EXPECT_NE(ofFile(file), first);
+}
+
+TEST(FileDigests, SeeAFileThatWasEditedInPlace) {
+  const TestFolder folder;
+  FileDigests digests;
+  const std::string file = folder.write("a.obj", "v 0 0 0");
+  const std::string first = digests.of(file);
+  EXPECT_EQ(digests.of(file), first);
+  folder.write("a.obj", "v 0 0 1");
+  EXPECT_NE(digests.of(file), first);
+  folder.write("a.obj", "v 0 0 0");
+  EXPECT_EQ(digests.of(file), first);
+  EXPECT_NE(digests.of(folder / "none.obj"), first);
 }
 
 }  // namespace

@@ -182,5 +182,49 @@ TEST_F(FramePlan, ChunksTogetherAreTheWhole) {
   EXPECT_TRUE(planFrames(asked).empty());
 }
 
+// A job for each of them took minutes and gigabytes before the first missing one was known.
+TEST_F(FramePlan, MillionsOfMissingFramesAreSaidAtOnce) {
+  make("in.####.exr", {1, 2, 3});
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  for (const char* frames : {"1-10000000", "1,2-9999999", "-5000000-4999999"}) {
+    asked.frames = parseFrames(frames);
+    asked.skipBadFrames = false;
+    expectError<InputError>(asked, {"lacks", "it has 1-3"});
+    asked.skipBadFrames = true;
+    expectError<InputError>(asked, {"lacks", "it has 1-3"});
+  }
+}
+
+TEST_F(FramePlan, FramesWiderApartThanOneAreSaid) {
+  std::vector<std::string> notes;
+  make("a.####.exr", {1, 3});
+  planFrames(request("a.####.exr", "out.####.exr"), &notes);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes.front().find("the frames 1,3 and none between"), std::string::npos) << notes[0];
+  notes.clear();
+  make("b.####.exr", {1, 2, 3});
+  planFrames(request("b.####.exr", "out.####.exr"), &notes);
+  PlanRequest asked = request("a.####.exr", "out.####.exr");
+  asked.frames = {1, 3};
+  planFrames(asked, &notes);
+  EXPECT_TRUE(notes.empty());
+}
+
+TEST_F(FramePlan, AHoleIsABadFrame) {
+  make("in.####.exr", {1, 2, 4});
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  expectError<InputError>(asked, {"lacks 1 of 4 frames (1-4): 3"});
+  asked.skipBadFrames = true;
+  const auto jobs = planFrames(asked);
+  ASSERT_EQ(jobs.size(), 4u);
+  EXPECT_TRUE(jobs[2].missing);
+}
+
+TEST_F(FramePlan, HardLinksAreTheSameFile) {
+  make("in.####.exr", {1});
+  std::filesystem::create_hard_link(folder / "in.0001.exr", folder / "hard.0001.exr");
+  expectError<UsageError>(request("in.####.exr", "hard.####.exr"), {"would overwrite an input"});
+}
+
 }  // namespace
 }  // namespace kagefude

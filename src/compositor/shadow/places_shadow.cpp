@@ -13,9 +13,12 @@ void acrossLight(const FrameLight& light, V3f& u, V3f& v) {
   if (light.light.type != Light::Type::sun && light.light.type != Light::Type::area &&
       light.subjectRadius > 0.0f)
     axis = (light.subjectCentre - light.light.position).normalized();
-  const V3f helper = std::fabs(axis.z) < 0.9f ? V3f(0, 0, 1) : V3f(1, 0, 0);
-  u = helper.cross(axis).normalized();
-  v = axis.cross(u);
+  // By the shortest turn from straight down, which goes smoothly with the light everywhere but
+  // where it shines straight up.
+  const V3f up = -axis;
+  const float k = up.z > -0.9999f ? 1.0f / (1.0f + up.z) : 0.0f;
+  u = V3f(1.0f - up.x * up.x * k, -up.x * up.y * k, -up.x).normalized();
+  v = u.cross(up);
 }
 
 /// What moves the light from mask to mask, by one unit of place.

@@ -47,7 +47,8 @@ int automaticCount(const Box& box) {
   const int other = 3 - box.longest - box.thinnest;
   const float width = box.longest == box.thinnest ? length : box.halfSize[other];
   if (!(width > 0.0f) || length < 2.0f * width) return 1;
-  return std::min(5, static_cast<int>(length / width + 0.5f));
+  // Held to 5 as a float: a needle's count is beyond any int.
+  return static_cast<int>(std::min(5.0f, std::floor(length / width + 0.5f)));
 }
 
 std::vector<V3f> spacedPoints(const Box& box, int count) {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "image/parallel.h"
@@ -16,6 +18,16 @@
 namespace kagefude {
 namespace {
 
+// Squares of places far out leave the range of a float; the count itself is held at its end.
+float repeatsAt(const BrushAnchor::Point& point, const V3f& p, float mappingDistance) {
+  const float repeats = axisDistance(point.frame, point.position, p) / mappingDistance;
+  if (std::isfinite(repeats)) return repeats;
+  const V3d q = V3d(p) - V3d(point.position);
+  const double a = V3d(point.frame.l1).dot(q), b = V3d(point.frame.l2).dot(q);
+  constexpr double most = std::numeric_limits<float>::max();
+  return static_cast<float>(std::min(std::hypot(a, b) / double{mappingDistance}, most));
+}
+
 // Angle and repeats of the weightiest reference point.
 void writeDiagnostics(const BrushInput& in, int y, bool keepOthers, BrushResult& result) {
   for (int x = 0; x < in.index.width; ++x) {
@@ -28,7 +40,7 @@ void writeDiagnostics(const BrushInput& in, int y, bool keepOthers, BrushResult&
     const BrushPlace place = brushPlace(anchor, p, in.params.pointBlend);
     const BrushAnchor::Point& point = anchor.points[place.point + (place.next > 0.5f ? 1 : 0)];
     result.angle(x, y) = brushAngle(point.frame, point.position, p);
-    result.repeat(x, y) = axisDistance(point.frame, point.position, p) / anchor.mappingDistance;
+    result.repeat(x, y) = repeatsAt(point, p, anchor.mappingDistance);
   }
 }
 

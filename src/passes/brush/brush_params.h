@@ -70,7 +70,6 @@ inline constexpr Parameter brushParameters[] = {
     number<&BrushParams::pointBlend>("point_blend", 0.01, 1, "gaps",
                                      "Share of the gap between two reference points over which "
                                      "one hands over to the other."),
-    plain<&BrushParams::diagnostics>("diagnostics", "Also give the angle and repeat pictures."),
 };
 inline constexpr ParameterTable brushTable{"brush", "Strokes from a painted strip along the tone.",
                                            "002 eq. 3.2-3.11", brushParameters};

@@ -124,7 +124,7 @@ ReceiverPlane planeOfReceiver(const SeenSurface& surface, uint32_t id,
     ++count;
   });
   if (count == 0)
-    throw InputError(fmt::format("the planar shadow's receiver {} is in no pixel", receiver));
+    throw InputError(fmt::format("the receiver {} of shadow.receiver is in no pixel", receiver));
   const ReceiverPlane plane{sum / static_cast<double>(count), normals.normalized()};
   double away = 0, extent = 0;
   eachPixel([&](int x, int y) {
@@ -133,10 +133,11 @@ ReceiverPlane planeOfReceiver(const SeenSurface& surface, uint32_t id,
     extent = std::max(extent, offset.length());
   });
   if (!(away <= 0.01 * extent) && count > 1)
-    throw InputError(fmt::format(
-        "the planar shadow's receiver {} is not flat: points lie {:.3g} from its plane, more than "
-        "a hundredth of its extent of {:.3g}",
-        receiver, away, extent));
+    throw InputError(
+        fmt::format("the receiver {} of shadow.receiver is not flat: points lie {:.3g} from its "
+                    "plane, more than "
+                    "a hundredth of its extent of {:.3g}",
+                    receiver, away, extent));
   return plane;
 }
 

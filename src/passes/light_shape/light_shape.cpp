@@ -33,6 +33,10 @@ void requireInputs(std::span<const View<const uint8_t>> masks, std::span<const V
         "a disc light needs 5 or more shadow masks, its centre and a ring, not {}; export it with "
         "--masks disc:9",
         masks.size()));
+  const auto falls = [](const V2f& a, const V2f& b) { return a.x > b.x; };
+  if (placesOnLine(places) &&
+      std::adjacent_find(places.begin(), places.end(), falls) != places.end())
+    throw InputError("the places of a line light's masks must rise along it");
   for (const View<const uint8_t>& mask : masks)
     requireSize("a shadow mask", mask, labels.width, labels.height);
 }

@@ -49,22 +49,69 @@ bool placesOnLine(std::span<const V2f> places) {
   return std::all_of(places.begin(), places.end(), [](const V2f& p) { return p.y == 0.0f; });
 }
 
+bool placesOnRing(std::span<const V2f> places) {
+  constexpr float close = 0.01f;  // radii; a JSON may round
+  if (places.size() != 5 && places.size() != 9) return false;
+  const auto ring = places.subspan(1);
+  const SinCos step = sinCosTurns(1.0f / static_cast<float>(ring.size()));
+  const auto isClose = [&](const V2f& a, const V2f& b) {
+    return std::fabs(a.x - b.x) < close && std::fabs(a.y - b.y) < close;
+  };
+  const auto turnsBy = [&](float sine) {
+    for (size_t i = 0; i < ring.size(); ++i) {
+      const V2f& p = ring[i];
+      const V2f next(p.x * step.cos - p.y * sine, p.x * sine + p.y * step.cos);
+      if (!isClose(ring[(i + 1) % ring.size()], next)) return false;
+    }
+    return true;
+  };
+  return isClose(places[0], V2f(0, 0)) && std::fabs(ring[0].length() - 1.0f) < close &&
+         (turnsBy(step.sin) || turnsBy(-step.sin));
+}
+
 LightShare::LightShare(std::span<const V2f> places, bool linear, float radius)
     : places_(places.begin(), places.end()),
       line_(placesOnLine(places)),
       linear_(linear),
+      ring_(placesOnRing(places)),
       radius_(radius) {
-  if (!line_ && !linear_ && !isRing()) buildMesh();
+  if (!line_ && !linear_ && !ring_) buildMesh();
   moment_ = 0.5f * static_cast<float>(places.size() - 1);
-  if (isRing()) return;
+  if (ring_) return;
   moment_ = 0;
   for (const V2f& p : places_) moment_ += 0.5f * (p.x * p.x + p.y * p.y);
+  if (!line_ && linear_) fitPlane();
 }
 
-bool LightShare::isRing() const { return places_.size() == 5 || places_.size() == 9; }
+/// Least squares for places that do not balance about the centre; those that do need no matrix.
+void LightShare::fitPlane() {
+  const double n = static_cast<double>(places_.size());
+  double su = 0, sv = 0, uu = 0, uv = 0, vv = 0;
+  for (const V2f& p : places_) {
+    su += p.x;
+    sv += p.y;
+    uu += double{p.x} * p.x;
+    uv += double{p.x} * p.y;
+    vv += double{p.y} * p.y;
+  }
+  constexpr double balanced = 0.15;  // of a mask's share: the groups of discPlaces
+  if (std::max({std::fabs(su), std::fabs(sv), std::fabs(uv), std::fabs(uu - vv)}) < balanced * n)
+    return;
+  const double mu = su / n, mv = sv / n;
+  const double a = uu - n * mu * mu, b = uv - n * mu * mv, d = vv - n * mv * mv;
+  const double determinant = a * d - b * b;
+  if (!(determinant > 1e-9 * n)) return;
+  for (const V2f& p : places_) {
+    const double x = p.x - mu, y = p.y - mv;
+    const double u = (d * x - b * y) / determinant, v = (a * y - b * x) / determinant;
+    fit_.emplace_back(static_cast<float>(1 / n - mu * u - mv * v), static_cast<float>(u),
+                      static_cast<float>(v));
+  }
+}
 
 void LightShare::buildMesh() {
   const LightMesh mesh(places_);
+  if (!(mesh.area() > 0.0f)) return;
   triangles_.assign(mesh.triangles().begin(), mesh.triangles().end());
   for (LightMesh::Triangle& t : triangles_) t.area /= mesh.area();
   // As the octagon below: the mesh grows until its area is the disc's.
@@ -72,7 +119,13 @@ void LightShare::buildMesh() {
   for (const V2f& place : places_) corners_.push_back(mesh.blendAt(place * reach));
 }
 
+float LightShare::meanOf(const float* s) const {
+  const auto lit = std::count_if(s, s + places_.size(), [](float d) { return d > 0.0f; });
+  return static_cast<float>(lit) / static_cast<float>(places_.size());
+}
+
 float LightShare::ofMesh(const float* s) const {
+  if (triangles_.empty()) return meanOf(s);
   float value[mostMasks], sum = 0.0f;
   for (size_t i = 0; i < corners_.size(); ++i) {
     const LightMesh::Blend& c = corners_[i];
@@ -86,7 +139,7 @@ float LightShare::ofMesh(const float* s) const {
 float LightShare::of(const float* s) const {
   if (line_) return ofLine(s);
   if (linear_) return ofPlane(s);
-  return isRing() ? ofWedges(s) : ofMesh(s);
+  return ring_ ? ofWedges(s) : ofMesh(s);
 }
 
 float LightShare::ofLine(const float* s) const {
@@ -94,11 +147,13 @@ float LightShare::ofLine(const float* s) const {
   const auto at = [&](float u) {
     size_t i = 1;
     while (i < last && places_[i].x < u) ++i;
-    const float t = (u - places_[i - 1].x) / (places_[i].x - places_[i - 1].x);
+    const float gap = places_[i].x - places_[i - 1].x;
+    const float t = gap > 0.0f ? (u - places_[i - 1].x) / gap : 0.5f;
     return s[i - 1] + t * (s[i] - s[i - 1]);
   };
   const float middle = 0.5f * (places_[0].x + places_[last].x);
   const float reach = 0.5f * (places_[last].x - places_[0].x) * radius_;
+  if (!(places_[last].x > places_[0].x)) return meanOf(s);
   if (!(reach > 0)) return at(middle) > 0 ? 1.0f : 0.0f;
   const float low = middle - reach, high = middle + reach;
   float sum = 0.0f, from = low, value = at(low);
@@ -121,7 +176,13 @@ float LightShare::ofPlane(const float* s) const {
     v += s[k] * places_[k].y;
   }
   mean /= count;
-  const float slope = std::sqrt(u * u + v * v) / moment_ * radius_;
+  float slope = std::sqrt(u * u + v * v) / moment_ * radius_;
+  if (!fit_.empty()) {
+    V3f plane(0.0f);
+    for (size_t k = 0; k < places_.size(); ++k) plane += fit_[k] * s[k];
+    mean = plane.x;
+    slope = std::sqrt(plane.y * plane.y + plane.z * plane.z) * radius_;
+  }
   if (!(slope > 1e-6f)) return (radius_ > 0 ? mean : s[0]) > 0 ? 1.0f : 0.0f;
   return discShare(mean / slope);
 }

@@ -19,7 +19,13 @@ inline constexpr size_t mostMasks = 65;  ///< of one light
 /// Share of the unit disc on the positive side of a line at signed distance d from its centre.
 float discShare(float d);
 
+/// Whether places are a disc's centre and then 4 or 8 on its rim, evenly in turning order.
+bool placesOnRing(std::span<const V2f> places);
+
 /// Turns signed distances at a light's masks into the share of the light with positive distance.
+/// A disc's centre and ring are integrated over wedges; places anywhere else over the triangles
+/// between them, grown to the disc's area. Places that are all one, or on a line that is not v = 0,
+/// give the share of masks with positive distance.
 class LightShare {
  public:
   /// places: as lightShapeVisibility takes them. radius: of the light, in units of place.
@@ -33,13 +39,15 @@ class LightShare {
   float ofPlane(const float* s) const;
   float ofWedges(const float* s) const;
   float ofMesh(const float* s) const;
-  bool isRing() const;
+  float meanOf(const float* s) const;
   void buildMesh();
+  void fitPlane();
 
   std::vector<V2f> places_;
-  bool line_, linear_;
+  bool line_, linear_, ring_;
   float radius_;
-  float moment_;                                ///< of the places about an axis of the disc
+  float moment_;          ///< of the places about an axis of the disc
+  std::vector<V3f> fit_;  ///< mean, u, v of the plane through any other places, by mask
   std::vector<LightMesh::Triangle> triangles_;  ///< of discs that are more than one ring
   std::vector<LightMesh::Blend> corners_;       ///< their corners on the light of `radius`
 };

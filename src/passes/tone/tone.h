@@ -8,13 +8,22 @@
 
 namespace kagefude {
 
+/// What of a light counts in the tone.
+enum class ToneLight { shade, irradiance };
+inline constexpr std::string_view toneLightNames[] = {"shade", "irradiance"};
+
 struct ToneParams {
+  ToneLight light = ToneLight::shade;
   float black = 0;
   float white = 1;
   float gamma = 1;
 };
 
 inline constexpr Parameter toneParameters[] = {
+    choice<&ToneParams::light>(
+        "light", toneLightNames,
+        "what of a light counts: the angle at which it falls in, or all of its irradiance, with "
+        "its falloff and the luminance of its colour; 1 is what all lights give the subject."),
     number<&ToneParams::black>("black", -1, 1, "tone", "Tone that becomes the darkest row."),
     number<&ToneParams::white>("white", 0, 2, "tone", "Tone that becomes the brightest row."),
     number<&ToneParams::gamma>("gamma", 0.05, 20, "",

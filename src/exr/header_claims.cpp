@@ -1,0 +1,121 @@
+#include "exr/header_claims.h"
+
+#include <OpenEXR/openexr.h>
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+
+#include "base/error.h"
+#include "base/plain_file.h"
+
+namespace kagefude {
+namespace {
+
+constexpr size_t longestName = 255;
+
+/// A cursor over the headers. A read beyond the end, or a name that is none, ends the walk.
+class HeaderWalk {
+ public:
+  HeaderWalk(const std::filesystem::path& path, uint64_t fileBytes)
+      : path_(path), bytes_(fileBytes), file_(path, std::ios::binary) {}
+
+  void run() {
+    constexpr uint32_t magic = 20000630, severalParts = 0x1000;
+    const uint32_t first = word(), flags = word();
+    if (!file_ || first != magic) return;
+    bool more = true;
+    while (more && header()) more = (flags & severalParts) != 0;
+  }
+
+ private:
+  /// One part's attributes; false at the empty header that ends a list of parts, and at trouble.
+  bool header() {
+    bool any = false;
+    for (std::string name = text(); file_ && !name.empty(); name = text()) {
+      any = true;
+      text();  // the type
+      const uint32_t size = word();
+      if (!file_) return false;
+      const auto at = static_cast<uint64_t>(file_.tellg());
+      if (size > bytes_ - std::min(at, bytes_))
+        throw InputError(fmt::format(
+            "{} cannot be read as an EXR file: its attribute {} claims {} bytes, and the "
+            "file has {}",
+            path_.string(), name, size, bytes_));
+      file_.seekg(static_cast<std::streamoff>(at + size));
+    }
+    return any && file_.good();
+  }
+
+  uint32_t word() {
+    unsigned char b[4] = {};
+    file_.read(reinterpret_cast<char*>(b), 4);
+    return b[0] | uint32_t{b[1]} << 8 | uint32_t{b[2]} << 16 | uint32_t{b[3]} << 24;
+  }
+
+  std::string text() {
+    std::string result;
+    for (int c = file_.get(); file_ && c != 0; c = file_.get()) {
+      result += static_cast<char>(c);
+      if (result.size() > longestName) file_.setstate(std::ios::failbit);
+    }
+    return result;
+  }
+
+  const std::filesystem::path& path_;
+  uint64_t bytes_;
+  std::ifstream file_;
+};
+
+void ignoreMessage(exr_const_context_t, exr_result_t, const char*) {}
+
+struct Context {
+  exr_context_t handle = nullptr;
+  ~Context() {
+    if (handle) exr_finish(&handle);
+  }
+};
+
+bool partIsWhole(exr_const_context_t file, int part, uint64_t fileBytes) {
+  exr_storage_t storage;
+  exr_attr_box2i_t window;
+  int32_t rows = 0;
+  if (exr_get_storage(file, part, &storage) != EXR_ERR_SUCCESS) return false;
+  if (storage != EXR_STORAGE_SCANLINE) return true;  // ours are scanlines
+  if (exr_get_data_window(file, part, &window) != EXR_ERR_SUCCESS ||
+      exr_get_scanlines_per_chunk(file, part, &rows) != EXR_ERR_SUCCESS || rows < 1)
+    return false;
+  for (int64_t y = window.min.y; y <= window.max.y; y += rows) {
+    exr_chunk_info_t chunk;
+    if (exr_read_scanline_chunk_info(file, part, static_cast<int>(y), &chunk) != EXR_ERR_SUCCESS ||
+        chunk.data_offset + chunk.packed_size > fileBytes)
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void checkHeaderClaims(const std::filesystem::path& path, uint64_t fileBytes) {
+  HeaderWalk(path, fileBytes).run();
+}
+
+bool isWholeExr(const std::filesystem::path& path) {
+  const uint64_t bytes = requirePlainFile(path);
+  checkHeaderClaims(path, bytes);
+  exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  settings.error_handler_fn = ignoreMessage;
+  settings.flags =
+      EXR_CONTEXT_FLAG_SILENT_HEADER_PARSE | EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+  Context file;
+  if (exr_start_read(&file.handle, path.c_str(), &settings) != EXR_ERR_SUCCESS)
+    throw InputError(fmt::format("{} cannot be read as an EXR file", path.string()));
+  int parts = 0;
+  if (exr_get_count(file.handle, &parts) != EXR_ERR_SUCCESS) return false;
+  for (int part = 0; part < parts; ++part)
+    if (!partIsWhole(file.handle, part, bytes)) return false;
+  return true;
+}
+
+}  // namespace kagefude

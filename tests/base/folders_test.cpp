@@ -1,0 +1,31 @@
+#include "base/folders.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "test_folder.h"
+
+namespace kagefude {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Folders, AreMadeWithThoseAbove) {
+  const TestFolder folder;
+  makeFolders(folder / "a/b/c");
+  EXPECT_TRUE(fs::is_directory(folder / "a/b/c"));
+  makeFolders(folder / "a/b/c");
+  makeFolders(folder / "d/");
+  EXPECT_TRUE(fs::is_directory(folder / "d"));
+  makeFolders("");
+}
+
+TEST(Folders, AFileInTheWayIsOneClearError) {
+  const TestFolder folder;
+  folder.write("a");
+  EXPECT_THROW(makeFolders(folder / "a"), OutputError);
+  EXPECT_THROW(makeFolders(folder / "a/b"), OutputError);
+}
+
+}  // namespace
+}  // namespace kagefude
