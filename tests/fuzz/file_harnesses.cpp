@@ -25,6 +25,7 @@ ImageFile imageWith(const std::map<std::string, std::string>& attributes) {
   for (const auto& [name, text] : attributes) headers[0].insert(name, Imf::StringAttribute(text));
   ImageFile image;
   image.path = "/nowhere/frame.exr";
+  image.ownParts = {0};
   image.headers = std::make_shared<const std::vector<Imf::Header>>(std::move(headers));
   return image;
 }
@@ -51,10 +52,13 @@ void readFast(const FastExr& file) {
 }  // namespace
 
 void fuzzManifest(std::string_view input) {
-  const Cryptomatte matte{"1234567", "Crypto", {}, {}};
-  const std::string prefix = "cryptomatte/" + matte.key + "/";
-  for (const char* const kind : {"manifest", "manif_file"})
-    swallowErrors([&] { readManifest(imageWith({{prefix + kind, std::string(input)}}), matte); });
+  const Cryptomatte matte{"cryptomatte/1234567", "Crypto", {}, {}, 0};
+  for (const char* const kind : {"/manifest", "/manif_file"})
+    swallowErrors([&] {
+      const ImageFile image = imageWith({{matte.key + kind, std::string(input)}});
+      readManifest(image, matte);
+      manifestFile(image, matte);
+    });
 }
 
 void fuzzSidecar(std::string_view input) {
@@ -76,7 +80,8 @@ void fuzzExrHeader(std::string_view input) {
   swallowErrors([&] {
     const ImageFile image = openImage(file.path());
     for (const Cryptomatte& matte : listCryptomattes(image)) readManifest(image, matte);
-    for (const std::string& name : image.textNames()) image.text(name);
+    for (int part = 0; part < static_cast<int>(image.parts.size()); ++part)
+      for (const std::string& name : image.textNames(part)) image.textOfPart(part, name);
   });
   swallowErrors([&] { FastExr::open(file.path()); });
 }
