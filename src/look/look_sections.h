@@ -67,7 +67,6 @@ struct Look {
   SceneParams scene;
   ColourParams colour;
   OutputParams output;
-  TrialParams trial;
   PassParams passes;
   std::vector<LightLook> lights;
   std::vector<StyleLook> styles;
@@ -128,7 +127,6 @@ inline constexpr LookSection lookSections[] = {
     detail::ofLook<&Look::scene>(sceneTable),
     detail::ofLook<&Look::colour>(colourTable),
     detail::ofLook<&Look::output>(outputTable),
-    detail::ofLook<&Look::trial>(trialTable),
     detail::ofPass<&PassParams::surfaces>(surfacesTable, Scope::look),
     detail::ofPass<&PassParams::pair>(pairTable, Scope::light),
     detail::ofPass<&PassParams::lightShape>(lightShapeTable, Scope::light),

@@ -154,16 +154,6 @@ inline constexpr Parameter styleParameters[] = {
 inline constexpr ParameterTable styleTable{"style", "paints objects or materials with a strip",
                                            "002 fig. 5.5", styleParameters};
 
-/// [trial]: a section that nothing reads.
-struct TrialParams {
-  float size = 1.0f;
-};
-inline constexpr Parameter trialParameters[] = {
-    number<&TrialParams::size>("size", 0, 2, "", "nothing"),
-};
-inline constexpr ParameterTable trialTable{"trial", "tries what a section costs", "kagefude",
-                                           trialParameters};
-
 enum class LightKind { automatic, point, spot, sun, area };
 inline constexpr std::string_view lightKindNames[] = {"auto", "point", "spot", "sun", "area"};
 

@@ -118,13 +118,6 @@ TEST_F(LookFile, ResolvedTextReadsBackToItself) {
   EXPECT_EQ(resolvedText(read(text)), text);
 }
 
-TEST_F(LookFile, ATrialSectionIsReadAndPrinted) {
-  const Look look = read("[trial]\nsize = 1.5\n", {"trial.size=1.75"});
-  EXPECT_EQ(look.trial.size, 1.75f);
-  EXPECT_NE(resolvedText(look).find("[trial]\nsize = 1.75\n"), std::string::npos);
-  EXPECT_THROW(read("[trial]\nsize = 3\n"), LookError);
-}
-
 TEST(LookSections, NamesAreUniqueAndDefaultsLieInTheirRanges) {
   std::vector<std::string_view> names;
   for (const LookSection& section : lookSections) {
