@@ -46,7 +46,7 @@ class CompBatchTest : public ::testing::Test {
 
   CompRequest request() const {
     CompRequest request;
-    request.plan.inputs = {FramePattern(frame.write())};
+    request.plan.inputs = {FramePattern(frame.write().string())};
     request.plan.outputs = {FramePattern((frame.folder.path() / "out" / "frame.exr").string())};
     return request;
   }
