@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "cli/commands.h"
-#include "look/pass_list.h"
+#include "look/look_sections.h"
 #include "look/read_section.h"
 
 namespace kagefude {
@@ -84,9 +84,9 @@ Json toJson(const ParameterTable& table) {
 std::vector<const ParameterTable*> chosenTables(const std::string& name) {
   std::vector<const ParameterTable*> chosen;
   std::vector<std::string> names;
-  for (const ParameterTable* table : allTables()) {
-    names.emplace_back(table->pass);
-    if (name.empty() || name == table->pass) chosen.push_back(table);
+  for (const LookSection& section : lookSections) {
+    names.emplace_back(section.table->pass);
+    if (name.empty() || name == section.table->pass) chosen.push_back(section.table);
   }
   if (chosen.empty())
     throw UsageError(fmt::format("there is no pass {}{}; there are {}", name,

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "compositor/output_layers.h"
-#include "frame/casters.h"
 
 namespace kagefude {
 namespace {
@@ -65,14 +64,12 @@ size_t casterBytes(const FramePlan& plan) {
   };
   if (!plan.hasCasters || std::none_of(plan.lights.begin(), plan.lights.end(), wantsCasters))
     return 0;
-  std::map<std::string, size_t> sizes;
+  std::map<std::filesystem::path, size_t> sizes;
   size_t bytes = 0;
-  for (const CasterEntry& entry : readCasterEntries(plan.sidecar->path)) {
+  for (const SidecarCaster& entry : plan.sidecar->casters) {
     const auto [place, isNew] = sizes.try_emplace(entry.file);
     std::error_code missing;
-    const auto size =
-        isNew ? std::filesystem::file_size(plan.sidecar->path.parent_path() / entry.file, missing)
-              : 0;
+    const auto size = isNew ? std::filesystem::file_size(entry.file, missing) : 0;
     if (isNew && !missing) place->second = ofMeshFile * size;
     bytes += place->second;
   }

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "compositor/output_layers.h"
-#include "frame/casters.h"
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
 #include "frame/lossy_passes.h"
@@ -195,7 +194,7 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   nameObjectsFromLook(look, plan);
   planCoverage(look, names, plan);
   if (wantsOutlines(look) && !plan.sidecar) plan.depth = findAov(plan.image, names, AovKind::depth);
-  plan.hasCasters = plan.sidecar && !readCasterEntries(plan.sidecar->path).empty();
+  plan.hasCasters = plan.sidecar && !plan.sidecar->casters.empty();
   plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame,
                              plan.hasCasters);
   if (leadMayChange(look, plan))

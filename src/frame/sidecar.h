@@ -114,6 +114,16 @@ struct WholeShot {
   std::vector<ShotLight> lights;
 };
 
+/// One entry of `casters`: an object, its mesh's file, and where it stands.
+///   "casters": [{"object": "Cup", "file": "shot.casters/4f0c….obj", "world_from_object": M}]
+/// Files are named by their content, so a mesh that does not deform is written once for the whole
+/// shot and instances share one file.
+struct SidecarCaster {
+  std::string object;
+  std::filesystem::path file;  ///< beside the JSON; already joined with its folder
+  Transform worldFromObject;
+};
+
 struct Sidecar {
   std::filesystem::path path;
   int frame = 0;
@@ -129,6 +139,7 @@ struct Sidecar {
   std::vector<SidecarLight> lights;
   std::vector<SidecarObject> objects;
   std::vector<SidecarMaterial> materials;
+  std::vector<SidecarCaster> casters;  ///< the shapes that cast shadows
 
   const SidecarLight* findLight(std::string_view name) const;
   const SidecarObject* findObject(std::string_view name) const;

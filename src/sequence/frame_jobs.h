@@ -46,7 +46,7 @@ struct FrameJob {
 /// more than 100,000 of them with it. Frames that are asked for and not there cost nothing but
 /// their numbers. `notes`, when given, takes what the user should know and may be right: that the
 /// frames found lie wider apart than one.
-std::vector<FrameJob> planFrames(const PlanRequest& request,
-                                 std::vector<std::string>* notes = nullptr);
+std::vector<FrameJob> planJobs(const PlanRequest& request,
+                               std::vector<std::string>* notes = nullptr);
 
 }  // namespace kagefude

@@ -1,4 +1,4 @@
-#include "sequence/frame_plan.h"
+#include "sequence/frame_jobs.h"
 
 #include <fmt/format.h>
 
@@ -279,7 +279,7 @@ std::string FrameJob::name() const {
   return view.empty() ? fmt::format("frame {}", frame) : fmt::format("frame {} {}", frame, view);
 }
 
-std::vector<FrameJob> planFrames(const PlanRequest& request, std::vector<std::string>* notes) {
+std::vector<FrameJob> planJobs(const PlanRequest& request, std::vector<std::string>* notes) {
   return Planner(request, notes).run();
 }
 
