@@ -93,6 +93,8 @@ CasterMesh readObj(const fs::path& path) {
 FrameCasters readCasters(const fs::path& sidecar, const std::map<std::string, uint32_t>& idOf) {
   FrameCasters result;
   std::map<std::string, CasterMesh> files;
+  size_t faulty = 0;
+  std::string warning;
   for (const CasterEntry& entry : readCasterEntries(sidecar)) {
     const auto [place, isNew] = files.try_emplace(entry.file);
     if (isNew) place->second = readObj(sidecar.parent_path() / entry.file);
@@ -102,11 +104,11 @@ FrameCasters readCasters(const fs::path& sidecar, const std::map<std::string, ui
     world.id = id == idOf.end() ? 0 : id->second;
     // After placing: a matrix may flatten a mesh or throw it out of range.
     const CasterFaults faults = cleanCasterMesh(world);
-    if (faults.dropped() > 0)
-      result.warnings.push_back(
-          fmt::format("{}: {}", sidecar.string(), faultWarning(world, faults)));
+    if (faults.dropped() > 0 && faulty++ == 0) warning = faultWarning(world, faults);
     result.meshes.push_back(std::move(world));
   }
+  if (faulty > 1) warning += fmt::format(", and so have others ({} in all)", faulty);
+  if (faulty > 0) result.warnings.push_back(fmt::format("{}: {}", sidecar.string(), warning));
   return result;
 }
 
