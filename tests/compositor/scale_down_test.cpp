@@ -58,7 +58,7 @@ class ScaleDown : public ::testing::Test {
 
 TEST_F(ScaleDown, ThePictureIsTheMeanOfTheLargeOne) {
   const FrameResult large = frame.comp(plain), small = frame.comp(plain, {"output.scale=2"});
-  ASSERT_EQ(small.colour.width(), 2);
+  ASSERT_EQ(small.colour.x.width(), 2);
   ASSERT_EQ(small.alpha.height(), 2);
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 2; ++x) {
