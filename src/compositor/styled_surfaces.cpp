@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <unordered_map>
 
 #include "base/error.h"
@@ -169,7 +170,7 @@ bool movesWithView(const StyleLook& style, const SceneParams& scene) {
 
 BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const FramePlan& plan,
                        const FrameLight& light, const Surface& surface, const VisibleBounds& seen,
-                       std::vector<std::string>& warnings) {
+                       std::set<std::string>& unbounded) {
   const StyleParams& style = styled.style;
   BrushSubject subject;
   subject.sceneRadius = light.subjectRadius;
@@ -185,13 +186,10 @@ BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const 
     subject.boundsMin = bounds.low;
     subject.boundsMax = bounds.high;
     subject.hasBounds = true;
-    if (movesWithView(styled, scene))
-      warnings.push_back(fmt::format(
-          "object {} has no bounds in a sidecar, so its strokes are placed and sized by what a "
-          "frame shows of it and will change with the view; give scene.centre and scene.radius, "
-          "or style.reference and brush.mapping_distance",
-          plan.objectName(surface.object).empty() ? fmt::format("{:08x}", surface.object)
-                                                  : plan.objectName(surface.object)));
+    if (movesWithView(styled, scene)) {
+      const std::string name = plan.objectName(surface.object);
+      unbounded.insert(name.empty() ? fmt::format("{:08x}", surface.object) : name);
+    }
   }
   if (object)
     for (const V3d& point : object->referencePoints) subject.referencePoints.push_back(V3f(point));
@@ -205,6 +203,16 @@ BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const 
   return subject;
 }
 
+/// One line for all of them.
+void noteUnbounded(const std::set<std::string>& objects, std::vector<std::string>& warnings) {
+  if (objects.empty()) return;
+  warnings.push_back(fmt::format(
+      "objects have no bounds in a sidecar ({}), so their strokes are placed and sized by what a "
+      "frame shows of them and will change with the view; give scene.centre and scene.radius, or "
+      "style.reference and brush.mapping_distance",
+      listNames({objects.begin(), objects.end()})));
+}
+
 }  // namespace
 
 StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const FramePlan& plan,
@@ -213,6 +221,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
   const std::vector<VisibleBounds> seen = visibleBounds(look, plan, index, planes.position);
   StyledSurfaces result;
   const StyleLook fallback{{}, look.passes};
+  std::set<std::string> unbounded;
   result.fitting.resize(look.styles.size());
   for (const Surface& surface : index.surfaces)
     for (size_t i = 0; i < look.styles.size(); ++i)
@@ -222,7 +231,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     const StyleLook& style = found ? *found : fallback;
     const FrameLight& light = lightFor(plan, style.style);
     BrushSubject subject = subjectOf(style, look.scene, plan, light, index.surfaces[number - 1],
-                                     seen.empty() ? VisibleBounds{} : seen[number - 1], warnings);
+                                     seen.empty() ? VisibleBounds{} : seen[number - 1], unbounded);
     subject.strip = strips.indexOf(style.style.strip);
     result.anchors.push_back(makeBrushAnchor(subject, light.light, style.passes.brush));
     result.brushes.push_back(style.passes.brush);
@@ -232,6 +241,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     const auto colour = line.empty() ? std::nullopt : std::optional(V3f(line[0], line[1], line[2]));
     result.outlines.push_back({colour, style.passes.outline});
   }
+  noteUnbounded(unbounded, warnings);
   result.anchorIndex = std::move(index.plane);
   return result;
 }

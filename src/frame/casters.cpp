@@ -42,6 +42,8 @@ CasterMesh readObj(const fs::path& path) {
 FrameCasters readCasters(const Sidecar& sidecar, const std::map<std::string, uint32_t>& idOf) {
   FrameCasters result;
   std::map<fs::path, CasterMesh> files;
+  size_t faulty = 0;
+  std::string warning;
   for (const SidecarCaster& entry : sidecar.casters) {
     const auto [place, isNew] = files.try_emplace(entry.file);
     if (isNew) place->second = readObj(entry.file);
@@ -51,11 +53,11 @@ FrameCasters readCasters(const Sidecar& sidecar, const std::map<std::string, uin
     world.id = id == idOf.end() ? 0 : id->second;
     // After placing: a matrix may flatten a mesh or throw it out of range.
     const CasterFaults faults = cleanCasterMesh(world);
-    if (faults.dropped() > 0)
-      result.warnings.push_back(
-          fmt::format("{}: {}", sidecar.path.string(), faultWarning(world, faults)));
+    if (faults.dropped() > 0 && faulty++ == 0) warning = faultWarning(world, faults);
     result.meshes.push_back(std::move(world));
   }
+  if (faulty > 1) warning += fmt::format(", and so have others ({} in all)", faulty);
+  if (faulty > 0) result.warnings.push_back(fmt::format("{}: {}", sidecar.path.string(), warning));
   return result;
 }
 

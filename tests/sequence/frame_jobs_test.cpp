@@ -190,9 +190,29 @@ TEST_F(FrameJobs, MillionsOfMissingFramesAreSaidAtOnce) {
     asked.frames = parseFrames(frames);
     asked.skipBadFrames = false;
     expectError<InputError>(asked, {"lacks", "it has 1-3"});
-    asked.skipBadFrames = true;
-    expectError<InputError>(asked, {"lacks", "it has 1-3"});
   }
+}
+
+// A run that goes on after bad frames makes what is there, whatever else is asked for, and each
+// part of it takes the same frames whatever is missing.
+TEST_F(FrameJobs, MillionsOfMissingFramesStopNoRunThatSkipsThem) {
+  make("in.####.exr", {1, 2, 5000001, 9999999});
+  PlanRequest asked = request("in.####.exr", "out.####.exr");
+  asked.skipBadFrames = true;
+  asked.frames = parseFrames("1-10000000");
+  std::vector<std::string> notes;
+  const auto present = [](const FrameJob& job) { return !job.missing; };
+  const auto jobs = planJobs(asked, &notes);
+  EXPECT_EQ(std::count_if(jobs.begin(), jobs.end(), present), 4);
+  EXPECT_EQ(jobs.size(), 1004u);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("1003-5000000,5000002-9999998,10000000"), std::string::npos) << notes[0];
+  asked.chunk = {2, 2};
+  const auto second = planJobs(asked);
+  ASSERT_EQ(std::count_if(second.begin(), second.end(), present), 2);
+  EXPECT_EQ(second.front().frame, 5000001);
+  asked.inputs = {FramePattern(folder / "other.####.exr")};
+  expectError<InputError>(asked, {"no file fits"});
 }
 
 TEST_F(FrameJobs, FramesWiderApartThanOneAreSaid) {
