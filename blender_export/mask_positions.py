@@ -11,6 +11,11 @@ import math
 from dataclasses import dataclass
 
 from . import vectors
+from .arguments import Arrangement
+
+
+# How many widths of a rectangle, left out by a line of masks, weigh as much as one gap along it.
+NARROW = 16.0
 
 
 @dataclass
@@ -40,8 +45,35 @@ def places_on_light(arrangement, travel, surface_axes=None):
         v_axis = vectors.scale(back, -1.0)
     if arrangement.kind == "trace":
         return MaskPlaces(u_axis, v_axis, [])
-    places = _line(arrangement.count) if arrangement.kind == "line" else _disc(arrangement.count)
-    return MaskPlaces(u_axis, v_axis, places)
+    if arrangement.kind == "line":
+        return MaskPlaces(u_axis, v_axis, _line(arrangement.count))
+    if arrangement.kind == "grid":
+        return MaskPlaces(u_axis, v_axis, _grid(arrangement.columns, arrangement.rows))
+    return MaskPlaces(u_axis, v_axis, _disc(arrangement.count))
+
+
+def on_rectangle(count, half_u, half_v):
+    """The arrangement of `count` masks (of DISC_MASKS) on a rectangle of these half sides.
+
+    Rows and columns so that neighbours lie as near each other as they can, which is what the
+    error goes by. One row leaves the width out, so it is taken only where rows at both edges would
+    lie much nearer to each other than masks along them.
+    """
+    best = None
+    for rows in range(1, count + 1):
+        for spare in (0, 1):
+            columns = (count - spare) // rows
+            whole = rows * columns + spare == count and columns >= rows
+            if not whole or (spare == 0) != (rows * columns % 2 == 1):
+                continue
+            across = 2.0 * half_v * (NARROW if rows == 1 else 1.0 / (rows - 1))
+            gap = max(2.0 * half_u / (columns - 1), across)
+            if best is None or gap < best[0]:
+                best = gap, columns, rows
+    _, columns, rows = best
+    if rows == 1:
+        return Arrangement("line", count)
+    return Arrangement("grid", count, columns, rows)
 
 
 def level_frame(travel):
@@ -71,6 +103,14 @@ def _facing(surface_axes, travel):
 
 def _line(count):
     return [(2.0 * number / (count - 1) - 1.0, 0.0) for number in range(count)]
+
+
+def _grid(columns, rows):
+    """The centre, the corners, then the other places row by row."""
+    lattice = [(u, v) for v, _ in _line(rows) for u, _ in _line(columns)]
+    first = [(0.0, 0.0)] + [(u, v) for v in (-1.0, 1.0) for u in (-1.0, 1.0)]
+    places = first + [place for place in lattice if place not in first]
+    return places
 
 
 # Radius and turn of the groups of eight that follow the centre: each fills the widest gaps that
