@@ -14,8 +14,9 @@ from . import vectors
 from .arguments import Arrangement
 
 
-# How many widths of a rectangle, left out by a line of masks, weigh as much as one gap along it.
-NARROW = 16.0
+# How many widths of a rectangle, left out by a line of masks, weigh as much as one gap along it:
+# measured on 2.5 x 0.05, where a line is better with 9, 17 and 33 masks, and 1.5 x 0.3, where it is not.
+NARROW = 3.0
 
 
 @dataclass
