@@ -14,9 +14,9 @@ from . import vectors
 from .arguments import Arrangement
 
 
-# How many widths of a rectangle, left out by a line of masks, weigh as much as one gap along it:
-# measured on 2.5 x 0.05, where a line is better with 9, 17 and 33 masks, and 1.5 x 0.3, where it is not.
-NARROW = 3.0
+# From how many times its width on a rectangle is a line. Measured with 5 to 33 masks: at 50 a line's
+# error is two thirds of a grid's, at 5 half as much again.
+NARROW = 16.0
 
 
 @dataclass
@@ -56,24 +56,19 @@ def places_on_light(arrangement, travel, surface_axes=None):
 def on_rectangle(count, half_u, half_v):
     """The arrangement of `count` masks (of DISC_MASKS) on a rectangle of these half sides.
 
-    Rows and columns so that neighbours lie as near each other as they can, which is what the
-    error goes by. One row leaves the width out, so it is taken only where rows at both edges would
-    lie much nearer to each other than masks along them.
+    Rows and columns so that neighbours lie as near each other as they can.
     """
-    best = None
-    for rows in range(1, count + 1):
-        for spare in (0, 1):
-            columns = (count - spare) // rows
-            whole = rows * columns + spare == count and columns >= rows
-            if not whole or (spare == 0) != (rows * columns % 2 == 1):
-                continue
-            across = 2.0 * half_v * (NARROW if rows == 1 else 1.0 / (rows - 1))
-            gap = max(2.0 * half_u / (columns - 1), across)
-            if best is None or gap < best[0]:
-                best = gap, columns, rows
-    _, columns, rows = best
-    if rows == 1:
+    if half_u >= NARROW * half_v:
         return Arrangement("line", count)
+    shapes = []
+    for rows in range(2, count // 2 + 1):
+        columns = count // rows
+        # The centre is one of the places where both are odd, else it lies beside them.
+        spare = 1 - rows * columns % 2
+        if rows <= columns and rows * columns + spare == count:
+            gap = max(2.0 * half_u / (columns - 1), 2.0 * half_v / (rows - 1))
+            shapes.append((gap, columns, rows))
+    _, columns, rows = min(shapes)
     return Arrangement("grid", count, columns, rows)
 
 
