@@ -207,7 +207,6 @@ TEST_F(ExrFastWrite, ReportsAFullDiskAndAMissingFolder) {
   } catch (const OutputError& error) {
     EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
   }
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   try {
     writeFastExr("/dev/full", imageOf(part));
     FAIL();
