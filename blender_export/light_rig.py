@@ -41,7 +41,7 @@ class LightRig:
         if not self.masks:
             return traced_layer(self.key)
         names = self.masks.names
-        return names[len(names) // 2 if self.arrangement.kind == "line" else 0]
+        return names[len(names) // 2 if self.arrangement.kind in ("line", "grid") else 0]
 
     def place(self, depsgraph, aim, radius):
         """Move the lamps to this frame's places; returns (light state, JSON entry).

@@ -13,6 +13,7 @@
 #include <OpenEXR/ImfVecAttribute.h>
 #include <OpenImageIO/imageio.h>
 #include <tbb/global_control.h>
+#include <algorithm>
 
 #include <fstream>
 #include <iterator>

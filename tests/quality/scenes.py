@@ -174,7 +174,7 @@ def tube_lamp():
 def heads():
     """A million triangles: what a mask costs where the geometry does (for cost.sh)."""
     scene, _ = stage(lens=40, eye=(1.2, -6.0, 4.6))
-    scene.render.resolution_x, scene.render.resolution_y = 960, 540
+    scene.render.resolution_x, scene.render.resolution_y = 480, 270
     surface = matte("Head")
     for number in range(4):
         bpy.ops.mesh.primitive_monkey_add(
