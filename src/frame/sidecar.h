@@ -38,7 +38,7 @@ struct LightMasks {
   double offset = 0;  ///< world units; pair: the seed's l; line: half its length; disc: its radius;
                       ///< grid: half its longer side
   double offsetV = 0;  ///< of a stretched disc or a grid, along v; else as `offset`
-  std::vector<MaskSample> samples;
+  std::vector<MaskSample> samples{};
 };
 
 struct LightDepthMap {
@@ -100,10 +100,10 @@ struct SidecarMaterial {
 /// What a light gives over the whole shot: luminance that arrives at the subject, facing it.
 struct ShotLight {
   std::string name;
-  double irradiance = 0;                ///< mean; watts per square metre
-  double largestIrradiance = 0;         ///< in any frame that was looked at
-  std::optional<double> largestPower;   ///< luminance of energy times color, in any such frame
-  std::optional<double> largestOnAxis;  ///< irradiance, were the subject on the light's axis
+  double irradiance = 0;                  ///< mean; watts per square metre
+  double largestIrradiance = 0;           ///< in any frame that was looked at
+  std::optional<double> largestPower{};   ///< luminance of energy times color, in any such frame
+  std::optional<double> largestOnAxis{};  ///< irradiance, were the subject on the light's axis
 };
 
 /// What holds for the whole shot, the same beside each of its frames.
