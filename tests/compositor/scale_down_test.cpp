@@ -42,8 +42,9 @@ class ScaleDown : public ::testing::Test {
   ImageFile written(const std::string& settings) const {
     const std::filesystem::path path = frame.write();
     frame.folder.write("look.toml", std::string(plain) + settings);
-    const Look look = readLook(frame.folder / "look.toml", {"output.passthrough = true"});
-    const StripSet strips(look, Colour(look.colourConfig()));
+    const Look look = readLook(frame.folder / "look.toml", {"output.passthrough=true"});
+    const Colour colour(look.colourConfig());
+    const StripSet strips(look, colour);
     const FramePlan plan = planFrame(look, path, 1);
     const FrameResult result = composeFrame(look, strips, plan, readFramePlanes(plan));
     writeFrame(look, plan, result, frame.folder / "out.exr", {});
@@ -75,7 +76,9 @@ TEST_F(ScaleDown, ThePictureIsTheMeanOfTheLargeOne) {
 
 TEST_F(ScaleDown, LayersOfNumbersAreFilteredAndOthersStand) {
   const char look[] = "output.layers = [\"*\"]\noutput.edges = \"pixel\"\n";
-  const FrameResult large = frame.comp(look), small = frame.comp(look, {"output.scale=2"});
+  // Lines are as wide in the picture that is written, so twice as wide in the large one.
+  const FrameResult large = frame.comp(look, {"outline.width=2"}),
+                    small = frame.comp(look, {"output.scale=2", "outline.width=1"});
   ASSERT_EQ(large.layers.size(), small.layers.size());
   for (size_t i = 0; i < large.layers.size(); ++i) {
     const std::string& name = large.layers[i].name;
