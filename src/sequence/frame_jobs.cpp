@@ -197,10 +197,11 @@ class Planner {
       jobs.push_back(makeJob(frame, view));
       if (jobs.back().missing) ++missing;
     }
-    if (notes && !left.empty())
+    const size_t more = left.size();
+    if (notes && more > 0)
       notes->push_back(
           fmt::format("beyond {} missing frames {} more are not there and are left out: {}",
-                      missing, left.size(), describeFrames(std::move(left))));
+                      missing, more, describeFrames(std::move(left))));
     return jobs;
   }
 

@@ -41,11 +41,11 @@ for i in $(seq 40); do
 done
 ( while [ ! -f gone/m.0004.exr ]; do sleep 0.005; done; until rm -rf gone 2>/dev/null; do :; done ) &
 watcher=$!
-code=$(exit_code run comp look.toml 'many/m.####.exr' -o 'gone/m.####.exr' --threads 1 --progress plain)
+code=$(exit_code run comp look.toml 'many/m.####.exr' -o 'gone/m.####.exr' --threads 1 --progress plain --skip-bad-frames)
 wait "$watcher"
-there=$(find gone -name "m.*" 2>/dev/null | wc -l)
+there=$({ find gone -name "m.*" 2>/dev/null || true; } | wc -l)
 check "a folder removed: exit $code" test "$code" -eq 1
-check "a folder removed: $there there, said: $(tail -2 log)" grep -qE "^$there frames? done, [1-9][0-9]* lost" log
+check "a folder removed: $there there, said: $(tail -2 log)" grep -qE "^$there frames? done,( [0-9]+ failed,)? [1-9][0-9]* lost" log
 check "a folder removed: no ERROR line" grep -q '^ERROR: frames .* not on the disk any more' log
 
 # Files that are read are never written, whatever they are called; suffixes mean what they say.
