@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Unit tests under the address and undefined-behaviour sanitizers with plane indices checked, the
-# batch loop under the thread sanitizer, and a minute of fuzzing for each reader.
+# Unit tests under the address and undefined-behaviour sanitizers, the batch loop under the thread
+# sanitizer, and a minute of fuzzing for each reader. By hand: clang builds for most of an hour.
 #   tests/gate.sh [SECONDS]
 set -euo pipefail
 cd "$(dirname "$0")/.."
