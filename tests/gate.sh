@@ -7,7 +7,8 @@ cd "$(dirname "$0")/.."
 .ci/ensure_packages build test gate
 export ASAN_OPTIONS=allocator_may_return_null=0:detect_stack_use_after_return=1
 export UBSAN_OPTIONS=print_stacktrace=1
-export TSAN_OPTIONS=halt_on_error=1:suppressions=$PWD/tests/tsan.supp
+# Tests that fork would wait for ever for children that the sanitizer ends.
+export TSAN_OPTIONS=die_after_fork=0:halt_on_error=1:suppressions=$PWD/tests/tsan.supp
 
 echo "-- thread sanitizer: batch tests"
 [ -f build/tsan/build.ninja ] || cmake --preset tsan >/dev/null
