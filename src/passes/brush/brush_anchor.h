@@ -30,6 +30,7 @@ struct BrushAnchor {
   std::vector<Point> points;  ///< at least one, by rising `along`
   ObjectAxes object;
   V3f longSide{1, 0, 0};      ///< world, unit
+  bool atRest = false;        ///< strokes lie on the places at rest that applyBrush is given
   float mappingDistance = 1;  ///< Md, of the finer strokes
   float coarser = 0;          ///< share of the same strokes at 2 Md, 0..1
   float shift = 0;            ///< added to u at Md, so that octaves do not repeat each other
