@@ -4,6 +4,7 @@
 Where it can be asked, a capability is asked for and not a number.
 """
 
+import math
 import os
 
 import bpy
@@ -51,6 +52,30 @@ def set_casts_shadow(light, casts):
     settings = getattr(light, "cycles", None)
     set_if_known(settings, cast_shadow=casts)
     set_if_known(light, use_shadow=casts)
+
+
+def light_output(light, kind, radius):
+    """(energy, colour) of light data as they were set before 4.5, which added factors to both.
+
+    Exposure in stops, the colour of a temperature, and "Normalize": off, a light gives off more the
+    larger it is. The factors of that are measured in 5.2: 4 pi r^2 for a point or spot (4 without a
+    size), the area for an area light, pi sin^2 of half its angle for a sun (1 without one). `radius`
+    is that of the light's state: world units, of an area's equal circle, a sun's tangent.
+    """
+    energy, color = light.energy * 2.0 ** getattr(light, "exposure", 0.0), tuple(light.color)
+    if getattr(light, "use_temperature", False):
+        color = tuple(one * other for one, other in zip(color, light.temperature_color))
+    if not getattr(light, "normalize", True):
+        energy *= _size_gain(kind, radius)
+    return energy, color
+
+
+def _size_gain(kind, radius):
+    if kind == "area":
+        return math.pi * radius * radius
+    if kind == "sun":
+        return math.pi * radius * radius / (1.0 + radius * radius) if radius > 0.0 else 1.0
+    return 4.0 * math.pi * radius * radius if radius > 0.0 else 4.0
 
 
 def copy_light_linking(source, lamp):
@@ -168,6 +193,14 @@ def action_curves(action):
         return list(action.fcurves)
     return [curve for layer in action.layers for strip in layer.strips
             for bag in strip.channelbags for curve in bag.fcurves]
+
+
+# Panel ----------------------------------------------------------------------------------------
+
+def relative_path_options():
+    """Options of a path property that takes `//`; Blender shows it in red without them from 4.5."""
+    known = "is_path_supports_blend_relative" in bpy.types.Property.bl_rna.properties
+    return {'PATH_SUPPORTS_BLEND_RELATIVE'} if known else set()
 
 
 # Sampling and shaders -------------------------------------------------------------------------

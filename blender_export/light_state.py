@@ -38,12 +38,13 @@ def read_light(evaluated, name):
     radius, half_length, axes = _size(data, matrix, rotation)
     cone = (data.spot_size, data.spot_blend) if data.type == 'SPOT' else None
     emission = node_emission(data)
+    energy, color = compat.light_output(data, TYPES[data.type], radius)
     hidden = evaluated.hide_render or not getattr(evaluated, "visible_diffuse", True)
     return LightState(
         name, TYPES[data.type], tuple(matrix.translation), tuple(rotation @ Vector((0, 0, -1))),
         radius, half_length, axes, cone,
-        tuple(one * other for one, other in zip(data.color, emission.color)),
-        0.0 if hidden else data.energy * emission.strength, compat.casts_shadow(data),
+        tuple(one * other for one, other in zip(color, emission.color)),
+        0.0 if hidden else energy * emission.strength, compat.casts_shadow(data),
         emission.unknown, matrix)
 
 

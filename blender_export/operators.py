@@ -19,6 +19,7 @@ class KAGEFUDE_OT_export(bpy.types.Operator):
 
     _export = None
     _timer = None
+    _unsaved = False
 
     @classmethod
     def poll(cls, context):
@@ -30,6 +31,7 @@ class KAGEFUDE_OT_export(bpy.types.Operator):
             self.report({'ERROR'}, "Save the file first, or give the output an absolute path")
             return {'CANCELLED'}
         output = os.path.abspath(bpy.path.abspath(settings.output))
+        self._unsaved = bpy.data.is_dirty
         try:
             self._export = BackgroundExport(export_words(settings, context.scene, output))
         except (UsageError, OSError, RuntimeError) as problem:
@@ -47,6 +49,7 @@ class KAGEFUDE_OT_export(bpy.types.Operator):
             self._export.cancel()
         if event.type != 'TIMER' and not self._export.finished:
             return {'PASS_THROUGH'}
+        self._keep_unsaved()
         if not self._export.poll():
             manager.kagefude_percent = self._export.percent
             context.workspace.status_text_set(
@@ -54,6 +57,12 @@ class KAGEFUDE_OT_export(bpy.types.Operator):
             _redraw(context)
             return {'PASS_THROUGH'}
         return self._finish(context)
+
+    def _keep_unsaved(self):
+        """Saving the copy makes Blender 3 forget, an event later, that the open file has changes."""
+        if self._unsaved and not bpy.data.is_dirty:
+            bpy.ops.ed.undo_push(message="kagefude export")
+        self._unsaved = False
 
     def cancel(self, context):
         """Blender closes or loads another file."""

@@ -5,7 +5,7 @@ import bpy
 from bpy.props import (BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty,
                        StringProperty)
 
-from . import operators
+from . import compat, operators
 from .arguments import MOST_LINE_MASKS, MOST_SAMPLES
 
 
@@ -48,6 +48,7 @@ class KagefudeSettings(bpy.types.PropertyGroup):
                                description="Frames such as 1-24, 1-24x2 or 1,5,9")
     output: StringProperty(
         name="Output", default="//kagefude/shot.####.exr", subtype='FILE_PATH',
+        options=compat.relative_path_options(),
         description="Where to write; #### becomes the frame number")
     use_truth: BoolProperty(
         name="Traced Truth", default=False,

@@ -148,11 +148,13 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, const Whole
     return light;
   }
   if (light.method == ShadowMethod::automatic) {
-    light.method = source.masks      ? arrangementMethod(source.masks->arrangement)
-                   : source.depthMap ? ShadowMethod::pcf
-                   : hasCasters      ? casterMethod(light.light.radius)
-                                     : ShadowMethod::none;
+    light.method = source.masks                  ? arrangementMethod(source.masks->arrangement)
+                   : !source.tracedLayer.empty() ? ShadowMethod::traced
+                   : source.depthMap             ? ShadowMethod::pcf
+                   : hasCasters                  ? casterMethod(light.light.radius)
+                                                 : ShadowMethod::none;
   }
+  if (entryOf(light.method).needs.traced) light.tracedChannel = source.tracedLayer;
   if (source.depthMap)
     light.depthMap = {source.depthMap->file, source.depthMap->channel,
                       source.depthMap->lightFromWorld, source.depthMap->clipFromLight};
@@ -289,6 +291,11 @@ void checkMethod(const FrameLight& light, bool hasCasters) {
         "light {} has no depth map, which shadow.method = \"{}\" needs; export it again with the "
         "exporter, which writes one for each light",
         light.name, method.name));
+  if (method.needs.traced && light.tracedChannel.empty())
+    throw InputError(fmt::format(
+        "light {} has no traced visibility, which shadow.method = \"{}\" needs; export it with "
+        "--masks trace:64",
+        light.name, method.name));
   checkMasks(light, method);
 }
 
@@ -311,6 +318,8 @@ std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
     checkMethod(light, hasCasters);
     sizeByScene(look.scene, light);
     for (std::string& mask : light.maskChannels) mask = requireMaskChannel(image, mask);
+    if (!light.tracedChannel.empty())
+      light.tracedChannel = requireMaskChannel(image, light.tracedChannel);
     chosen.push_back(std::move(light));
   }
   if (chosen.empty())

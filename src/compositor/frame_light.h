@@ -36,6 +36,7 @@ struct FrameLight {
   std::vector<V2f> places;                ///< of the same masks on the light, in radii
   std::optional<LightGeometry> geometry;  ///< what moves the light from mask to mask
   V3f towardsFar{0, 0, 0};                ///< a pair's farther mask, from the light's centre
+  std::string tracedChannel;              ///< method traced: the visibility itself
   std::optional<DepthMapSource> depthMap;
   int castPlaces = 0;          ///< method places: masks that are cut from the casters
   std::string receiver;        ///< methods planar and blob

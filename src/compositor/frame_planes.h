@@ -9,10 +9,11 @@
 
 namespace kagefude {
 
-/// The pixels that one light brings: its hard masks (1 = sees the light) or its depth map,
-/// whichever its method needs.
+/// The pixels that one light brings: its hard masks (1 = sees the light), its traced visibility or
+/// its depth map, whichever its method needs.
 struct LightPlanes {
   std::vector<Bytes> masks;
+  Floats traced;
   Floats depthMap;
 };
 

@@ -175,6 +175,10 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
     for (size_t k = 0; k < masks[i].size(); ++k)
       reader.floats(plan.lights[i].maskChannels[k], masks[i][k]);
   }
+  std::vector<Floats> traced(plan.lights.size());
+  for (size_t i = 0; i < traced.size(); ++i)
+    if (!plan.lights[i].tracedChannel.empty())
+      reader.floats(plan.lights[i].tracedChannel, traced[i]);
   reader.read();
 
   planes.width = planes.position.x.width();
@@ -185,6 +189,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
       own.masks.push_back(toMask(mask));
       mask = Floats();
     }
+    own.traced = std::move(traced[i]);
     if (entryOf(plan.lights[i].method).needs.depthMap)
       own.depthMap = readDepthMap(*plan.lights[i].depthMap);
   }

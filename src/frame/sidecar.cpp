@@ -132,6 +132,7 @@ void readOptions(const JsonPlace& json, SidecarLight& light) {
   }
   if (json.has("masks")) light.masks = readMasks(json["masks"]);
   if (json.has("depth_map")) light.depthMap = readDepthMap(json["depth_map"]);
+  if (json.has("traced")) light.tracedLayer = json["traced"]["layer"].name();
   if (json.has("truth_layer")) light.truthLayer = json["truth_layer"].text();
   if (json.has("truth_samples")) {
     light.truthSamples = json["truth_samples"].integer(0, 1 << 24);

@@ -72,7 +72,8 @@ struct SidecarLight {
   V3d axisU{0, 0, 0}, axisV{0, 0, 0};  ///< world directions of u and v; 0: not given
   std::optional<LightMasks> masks;
   std::optional<LightDepthMap> depthMap;
-  std::string truthLayer;  ///< "" when no truth was traced
+  std::string tracedLayer;  ///< visibility traced in place of masks; "" when there is none
+  std::string truthLayer;   ///< "" when no truth was traced
   int truthSamples = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "look/read_section.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

@@ -18,6 +18,7 @@ using ShadowFunction = LightVisibility (*)(const ShadowWork&);
 LightVisibility noShadow(const ShadowWork&);
 LightVisibility pairShadow(const ShadowWork&);
 LightVisibility lightShapeShadow(const ShadowWork&);
+LightVisibility tracedShadow(const ShadowWork&);
 LightVisibility pcfShadow(const ShadowWork&);
 LightVisibility pcssShadow(const ShadowWork&);
 LightVisibility coverageShadow(const ShadowWork&);
@@ -33,6 +34,7 @@ enum class ShadowMethod {
   pair,
   line,
   disc,
+  traced,
   pcf,
   pcss,
   coverage,
@@ -53,6 +55,7 @@ struct MaskNeed {
 /// What a method cannot do without; a light that lacks it is an error that says how to get it.
 struct ShadowNeeds {
   MaskNeed masks = {};
+  bool traced = false;  ///< the visibility itself, traced by the renderer
   bool depthMap = false;
   bool casters = false;   ///< the shapes that cast shadows
   bool camera = false;    ///< the sidecar's camera; comes with the casters
@@ -88,9 +91,11 @@ inline constexpr ShadowNeeds needCasters{.casters = true, .camera = true};
 
 /// All methods, in the order of their values.
 inline constexpr std::array shadowMethods{
-    ShadowMethodEntry{ShadowMethod::automatic, "auto",
-                      "the masks' own arrangement, then the depth map, then the casters, then none",
-                      nullptr},
+    ShadowMethodEntry{
+        ShadowMethod::automatic, "auto",
+        "the masks' own arrangement, then what was traced, then the depth map, then the "
+        "casters, then none",
+        nullptr},
     ShadowMethodEntry{ShadowMethod::none, "none", "no shadow", noShadow},
     ShadowMethodEntry{ShadowMethod::pair,
                       "pair",
@@ -113,6 +118,13 @@ inline constexpr std::array shadowMethods{
                       Smoothing::whereAsked,
                       {.masks = {5, 0, "disc:9"}},
                       {.perMask = 4}},
+    ShadowMethodEntry{ShadowMethod::traced,
+                      "traced",
+                      "soft, as the renderer traced it",
+                      tracedShadow,
+                      Smoothing::whereAsked,
+                      {.traced = true},
+                      {.perPixel = 4}},
     ShadowMethodEntry{ShadowMethod::pcf,
                       "pcf",
                       "the depth map, filtered over a fixed window",

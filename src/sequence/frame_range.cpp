@@ -1,6 +1,7 @@
 #include "sequence/frame_range.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,7 @@
 #include "sequence/report_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "sequence/progress.h"
 #include "sequence/report_plot.h"

@@ -24,6 +24,37 @@ TEST(LightLayers, VisibilityIsWrittenAsItIsMeasured) {
   EXPECT_NEAR(TestFrame::layer(result, "brush.tone")(2, 2), 0.5f, 1e-6f);
 }
 
+TEST(LightLayers, WhatTheRendererTracedIsTheVisibility) {
+  TestFrame frame(4, 1);
+  Floats& traced = frame.plane("traced.Key.V");
+  traced(0, 0) = 0.25f;
+  traced(1, 0) = 1.5f;  // a renderer's rounding
+  traced(2, 0) = std::nanf("");
+  frame.sidecar["lights"].push_back(lightJson("Key", "point", {0, 0, 5}, {0, 0, -1}, 10));
+  frame.sidecar["lights"][0]["traced"] = {{"layer", "ViewLayer.traced.Key"}, {"samples", 16}};
+  const std::string look = "output.layers = [\"visibility.*\"]\n";
+  for (const char* method : {"auto", "traced"}) {
+    FrameResult result = frame.comp(look + "shadow.method = \"" + method + "\"\n");
+    const auto visibility = TestFrame::layer(result, "visibility.Key");
+    EXPECT_EQ(visibility(0, 0), 0.25f) << method;
+    EXPECT_EQ(visibility(1, 0), 1.0f) << method;
+    EXPECT_EQ(visibility(2, 0), 1.0f) << method;
+    EXPECT_EQ(visibility(3, 0), 0.0f) << method;
+  }
+}
+
+TEST(LightLayers, WithoutATracedLayerTheMethodSaysHowToExportOne) {
+  TestFrame frame(2, 1);
+  frame.sidecar["lights"].push_back(lightJson("Key", "point", {0, 0, 5}, {0, 0, -1}, 10));
+  try {
+    frame.comp("shadow.method = \"traced\"\n");
+    FAIL() << "expected an error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("--masks trace:64"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(LightLayers, WholeNumbersAbove2To24AreDifferentObjects) {
   TestFrame frame(4);
   frame.sidecar["lights"].push_back(lightJson("Sun", "sun", {0, 0, 9}, {0, 0, -1}, 1));
