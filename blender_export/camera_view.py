@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shot's camera: its matrices, a copy of it that is everywhere in focus, and what it sees."""
+"""The shot's camera: its matrices, and a copy of it that is everywhere in focus."""
 
 from dataclasses import dataclass
 
-from mathutils import Matrix, Vector
+from mathutils import Matrix
 
 from .errors import ExportError
 from .export_scenes import PREFIX, resolution
 
-PROBE_COLUMNS, PROBE_ROWS = 48, 27
 # Pixels. A ray of a shader node that starts on the very edge of two faces is stopped by the other
 # face; a camera that stands square to the geometry would see whole rows of such points.
 NUDGE = (0.0011, 0.0019)
@@ -64,43 +63,3 @@ class SharpCameras:
             scene.collection.objects.link(sharp)
             self._copies[camera.name_full] = sharp
         return self._copies[camera.name_full]
-
-
-def visible_points(scene, depsgraph, view):
-    """Surface points that the camera sees, on a coarse grid of rays over the whole frame."""
-    world_from_clip = view.clip_from_world.inverted()
-    points = []
-    for row in range(PROBE_ROWS + 1):
-        for column in range(PROBE_COLUMNS + 1):
-            x, y = 2.0 * column / PROBE_COLUMNS - 1.0, 2.0 * row / PROBE_ROWS - 1.0
-            start = _unproject(world_from_clip, x, y, -1.0)
-            end = _unproject(world_from_clip, x, y, 1.0)
-            hit, place, *_ = scene.ray_cast(depsgraph, start, (end - start).normalized(),
-                                            distance=(end - start).length)
-            if hit:
-                points.append(tuple(place))
-    return points
-
-
-def hidden_points(scene, depsgraph, points, state, reach):
-    """Those of the points that `state`'s light does not reach.
-
-    `reach` is how far back along a sun's light a blocker may be.
-    """
-    return [point for point in points
-            if _is_hidden(scene, depsgraph, Vector(point), state, reach)]
-
-
-def _is_hidden(scene, depsgraph, point, state, reach):
-    if state.kind == "sun":
-        to_light, distance = -Vector(state.direction), reach
-    else:
-        way = Vector(state.position) - point
-        to_light, distance = way.normalized(), way.length
-    start = point + to_light * (1e-4 * distance)
-    return scene.ray_cast(depsgraph, start, to_light, distance=distance * 0.9998)[0]
-
-
-def _unproject(world_from_clip, x, y, z):
-    clip = world_from_clip @ Vector((x, y, z, 1.0))
-    return clip.xyz / clip.w

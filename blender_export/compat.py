@@ -120,6 +120,13 @@ def compositor_tree(scene):
     return scene.node_tree
 
 
+def has_compositing(scene):
+    """Whether the file composites its picture; from 5.0 `use_nodes` is always on, whatever it does."""
+    if hasattr(scene, "compositing_node_group"):
+        return scene.compositing_node_group is not None
+    return scene.use_nodes
+
+
 def remove_compositor(scene):
     """Leave a copied scene without compositing; its original keeps its own."""
     if hasattr(scene, "compositing_node_group"):
@@ -146,13 +153,13 @@ def first_channel_of_colour(tree, socket):
 class LayerFile:
     """A File Output node that writes its inputs as layers of one float multilayer EXR of one part."""
 
-    def __init__(self, tree):
+    def __init__(self, tree, codec='ZIP'):
         self.tree = tree
         self.node = tree.nodes.new('CompositorNodeOutputFile')
         form = self.node.format
         # The kinds of file are sorted by medium from 5.0, and only those of the medium can be set.
         set_if_known(form, media_type='MULTI_LAYER_IMAGE')
-        form.file_format, form.color_depth, form.exr_codec = 'OPEN_EXR_MULTILAYER', '32', 'ZIP'
+        form.file_format, form.color_depth, form.exr_codec = 'OPEN_EXR_MULTILAYER', '32', codec
         set_if_known(form, use_exr_interleave=True)
         self.names = []
 
@@ -223,11 +230,6 @@ def hide_from_raycast(item, hidden):
 def has_raycast_node():
     """The shader node Raycast came with 5.1."""
     return hasattr(bpy.types, "ShaderNodeRaycast")
-
-
-def can_hide_from_raycast():
-    """From 5.2 an object may be left out of the Raycast node's rays; before, all were hit."""
-    return hasattr(bpy.types.Object, "visible_raycast")
 
 
 # Anything -------------------------------------------------------------------------------------

@@ -49,7 +49,8 @@ class ExportJob:
         self.rigs = self._rigs(lights, backends)
         self.data.add_rest(shot.all_geometry())
         self.data.finish()
-        self.writer, more = frame_image.shot_writer(scene, view_layer, self.data)
+        self.writer, more = frame_image.shot_writer(
+            scene, view_layer, self.data, [rig.middle_mask for rig in self.rigs if rig.masked])
         notes += backends.notes + more + export_notes.scene_notes(scene, view_layer, options)
         self.depth = LightDepth(self.data, subjects, options.depth_size)
         self.fogs = [item for item in shot.all_geometry() if mask_materials.is_volume_only(item)]
@@ -111,14 +112,16 @@ class ExportJob:
         entries, things = sidecar.describe_objects(depsgraph, self.unique, self.unpainted)
         placed = [rig.place(depsgraph, self.aims[rig.light], self.shot.subject.radius)
                   for rig in self.rigs]
-        mapped = [(rig, entry, self._light_view(frame, state, depsgraph, view, things))
-                  for rig, (state, entry) in zip(self.rigs, placed) if rig.masked]
         for scene in self.data.scenes:
             scene.camera = self.cameras.copy_of(self.scene.camera, self.data.scene)
         image = os.path.join(self.names.folder, self.names.image(frame))
         parts = [(frame_image.render(self.writer, frame, image), image)]
         yield
-        for rig, entry, light_view in mapped:
+        mapped = [(rig, state, entry) for rig, (state, entry) in zip(self.rigs, placed)
+                  if rig.masked]
+        seen = frame_image.seen_points(frame, image) if mapped else None
+        for rig, state, entry in mapped:
+            light_view = self._light_view(frame, state, seen.of_mask(rig.middle_mask), things)
             name = self.names.light_depth(rig.key, frame)
             path = os.path.join(self.names.folder, name)
             part = self.depth.render(light_view, frame, path)
@@ -135,8 +138,8 @@ class ExportJob:
         for part, path in parts:
             os.replace(part, path)
 
-    def _light_view(self, frame, state, depsgraph, camera, things):
-        light_view = plan_view(state, self.scene, depsgraph, camera, things)
+    def _light_view(self, frame, state, seen, things):
+        light_view = plan_view(state, seen, things)
         if light_view.cut:
             self.say(f"note: frame {frame}: the depth map of light '{state.name}' cannot show all "
                      f"that the camera sees; what is outside it counts as lit")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What an artist may expect of the export and does not get, each said once, with what to do."""
 
+from . import compat
+
 
 def ignored_settings(scene, view_layer):
     """Notes on settings of the file that the export leaves out; ask before they are switched off."""
@@ -17,7 +19,7 @@ def ignored_settings(scene, view_layer):
                      f"{', '.join(others)}")
     if view_layer.use_pass_mist:
         notes.append("the Mist pass is not written; data.Depth has the distance")
-    if render.use_compositing and getattr(scene, "use_nodes", False):
+    if render.use_compositing and compat.has_compositing(scene):
         notes.append("the file's compositing is not applied to the beauty")
     if render.use_sequencer and scene.sequence_editor and _strips(scene.sequence_editor):
         notes.append("the file's video sequence is ignored")

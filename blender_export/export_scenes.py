@@ -155,7 +155,7 @@ class DataScene:
         data.samples = 1
         enable_data_passes(data)
         self._lamps = {data.name: []}
-        self._sight, self._sight_names = None, []
+        self._sight, self._sight_layer, self._sight_names = None, data.name, []
         self._group_layer = None
         self._rest_aovs = []
 
@@ -201,18 +201,29 @@ class DataScene:
         """Let the data layer hold where surfaces rest (see rest_pass)."""
         self._rest_aovs = rest_pass.prepare(objects)
 
-    def add_sight_layer(self, ask):
-        """The layer whose material writes masks into AOVs; returns the material (see sight_nodes)."""
-        self._sight = sight_nodes.SightMaterial(plain_material(), ask)
-        layer = self._add_layer(self.scene, "sight", [], 1)
-        layer.material_override = self._sight.material
+    def add_sight(self, ask, objects):
+        """Let materials write masks into AOVs; returns their Sight.
+
+        The artist's own, in the data layer, where those of all `objects` can; else a white one in
+        a layer of its own, for which the geometry is read again.
+        """
+        self._sight = sight_nodes.Sight(ask)
+        if sight_nodes.can_stand_in(objects):
+            for material in {slot.material for item in objects for slot in item.material_slots}:
+                if material:
+                    self._sight.put_into(material)
+            return self._sight
+        white = plain_material()
+        self._sight.put_into(white)
+        self._sight_layer = "sight"
+        self._add_layer(self.scene, "sight", [], 1).material_override = white
         return self._sight
 
     def add_sight_mask(self, name):
         """One more mask of that layer; returns the name of its AOV."""
-        aov = f"k{len(self._sight_names)}"
+        aov = f"{PREFIX}{len(self._sight_names)}"
         self._sight_names.append(aov)
-        self.layers[name] = Reading(self.scene, "sight", aov)
+        self.layers[name] = Reading(self.scene, self._sight_layer, aov)
         return aov
 
     @contextmanager
@@ -245,11 +256,7 @@ class DataScene:
 
     def finish(self):
         """Keep every lamp out of all layers but its own."""
-        depth = self._add_layer(self.scene, "depth", [], 1)
-        depth.use_pass_z = True
-        if self._sight:
-            # The material of the layer before it: with another the geometry would be read again.
-            depth.material_override = self._sight.material
+        self._add_depth_layer()
         self._render_only(lambda name: name != "depth")
         lit = {name: link_collection(self._scene_of(name), name, lamps)
                for name, lamps in self._lamps.items() if lamps}
@@ -262,6 +269,14 @@ class DataScene:
             for name, kind in self._rest_aovs + [(aov, 'VALUE') for aov in self._sight_names]:
                 made = view_layer.aovs.add()
                 made.name, made.type = name, kind
+
+    def _add_depth_layer(self):
+        """Last, and alike to the layer before it, or the geometry would be read again."""
+        before = self.scene.view_layers[-1]
+        depth = self._add_layer(self.scene, "depth", [], 1)
+        depth.use_pass_z, depth.material_override = True, before.material_override
+        # What they ask of the geometry.
+        depth.use_pass_uv, depth.use_pass_vector = before.use_pass_uv, before.use_pass_vector
 
     def _scene_of(self, layer):
         return next(scene for scene in self.scenes if layer in scene.view_layers)
@@ -283,70 +298,3 @@ class DataScene:
         view_layer.material_override = self.material
         self._lamps[name] = lamps
         return view_layer
-
-
-class Writer:
-    """A scene whose compositor gathers layers of other scenes into one multilayer EXR."""
-
-    def __init__(self, like, name):
-        self.scene = bpy.data.scenes.new(PREFIX + name)
-        render = self.scene.render
-        render.resolution_x, render.resolution_y = resolution(like)
-        render.resolution_percentage = 100
-        render.use_stamp_date = render.use_stamp_filename = render.use_stamp_render_time = False
-        self.tree = compat.compositor_tree(self.scene)
-        self._sources = {}
-        self.file = compat.LayerFile(self.tree)
-
-    @property
-    def names(self):
-        return self.file.names
-
-    def _source_of(self, scene, layer_name):
-        """The one node for a layer that many readings share."""
-        key = scene.name, layer_name
-        if key not in self._sources:
-            self._sources[key] = self.source(scene, layer_name)
-        return self._sources[key]
-
-    def source(self, scene, layer_name):
-        node = self.tree.nodes.new('CompositorNodeRLayers')
-        node.scene = scene
-        node.layer = layer_name
-        return node
-
-    def add(self, socket, name):
-        self.file.add(socket, name)
-
-    def add_pass(self, node, pass_name, name):
-        socket = compat.output_socket(node, pass_name)
-        if socket is None:
-            raise ExportError(f"Blender gives no {pass_name} pass for layer '{node.layer}'")
-        self.add(socket, name)
-
-    def add_reading(self, layer, reading):
-        """One channel, as `reading` says."""
-        value = self._first_channel(reading, reading.view_layer)
-        if reading.threshold is not None:
-            value = self._calculated('GREATER_THAN', value, reading.threshold)
-        if reading.share_of:
-            # 0 divided by 0, where no light arrives, is 0 to the compositor.
-            whole = self._first_channel(reading, reading.share_of)
-            value = self._calculated('DIVIDE', value, whole)
-        self.add(value, layer)
-
-    def _first_channel(self, reading, view_layer):
-        socket = compat.output_socket(self._source_of(reading.scene, view_layer), reading.pass_name)
-        if socket is None:
-            raise ExportError(f"Blender gives no {reading.pass_name} pass for layer '{view_layer}'")
-        return socket if socket.type == 'VALUE' else \
-            compat.first_channel_of_colour(self.tree, socket)
-
-    def _calculated(self, operation, first, second):
-        node = compat.math_node(self.tree, operation)
-        self.tree.links.new(first, node.inputs[0])
-        if isinstance(second, float):
-            node.inputs[1].default_value = second
-        else:
-            self.tree.links.new(second, node.inputs[1])
-        return node.outputs[0]

@@ -1,11 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads the names of an EXR file's channels, to make sure that what was asked for was written."""
+"""Reads the header of an EXR file of one part: its channels, and where its lines of pixels are."""
 
 import struct
+from dataclasses import dataclass
 
 from .errors import ExportError
 
 LARGEST_HEADER = 16 << 20
+_UNCOMPRESSED = 0
+
+
+@dataclass
+class Layout:
+    """Where an uncompressed file keeps its pixels; a line holds its channels one after the other."""
+    width: int
+    height: int
+    channels: list   # (name, kind: 0 uint, 1 half, 2 float) in the file's order
+    offsets: tuple   # of each line's block in the file
+
+    def line(self, file, row):
+        """The bytes of a line, 0 the topmost."""
+        file.seek(self.offsets[row])
+        _, size = struct.unpack("<ii", file.read(8))
+        line = file.read(size)
+        if len(line) != size:
+            raise ValueError("a line ends early")
+        return line
 
 
 def channel_names(path):
@@ -15,32 +35,45 @@ def channel_names(path):
     if head[:4] != b"\x76\x2f\x31\x01":
         raise ExportError(f"{path} is not an OpenEXR file")
     try:
-        return _channels(head, 8)
-    except (IndexError, ValueError, struct.error) as problem:
+        return [name for name, _ in _channel_list(_attributes(head, 8)[0]["channels"])]
+    except (KeyError, IndexError, ValueError, struct.error) as problem:
         raise ExportError(f"the header of {path} is damaged") from problem
 
 
-def _channels(head, place):
+def read_layout(file):
+    """The Layout of an open file; ValueError where it is compressed, KeyError and others where damaged."""
+    head = file.read(LARGEST_HEADER)
+    attributes, place = _attributes(head, 8)
+    if attributes["compression"][0] != _UNCOMPRESSED:
+        raise ValueError("compressed")
+    left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"])
+    height = bottom - top + 1
+    return Layout(right - left + 1, height, _channel_list(attributes["channels"]),
+                  struct.unpack_from(f"<{height}Q", head, place))
+
+
+def _attributes(head, place):
+    """({name: raw bytes}, where the header ends)."""
+    found = {}
     while head[place] != 0:
         name, place = _text(head, place)
-        kind, place = _text(head, place)
+        _, place = _text(head, place)
         (size,) = struct.unpack_from("<i", head, place)
-        place += 4
-        if name == "channels" and kind == "chlist":
-            return _channel_list(head, place)
-        place += size
-    raise ValueError("no channel list")
+        found[name] = head[place + 4:place + 4 + size]
+        place += 4 + size
+    return found, place + 1
 
 
-def _channel_list(head, place):
-    names = []
-    while head[place] != 0:
-        name, place = _text(head, place)
-        names.append(name)
+def _channel_list(raw):
+    """(name, kind) of each channel."""
+    found, place = [], 0
+    while raw[place] != 0:
+        name, place = _text(raw, place)
+        found.append((name, struct.unpack_from("<i", raw, place)[0]))
         place += 16  # pixel type, linearity, sampling
-    return names
+    return found
 
 
-def _text(head, place):
-    end = head.index(0, place)
-    return head[place:end].decode("utf-8"), end + 1
+def _text(raw, place):
+    end = raw.index(0, place)
+    return raw[place:end].decode("utf-8"), end + 1

@@ -8,12 +8,20 @@ import bpy
 
 from . import compat, exr_header
 from .errors import ExportError
-from .export_scenes import DATA_PASSES, NOT_BEAUTY, Writer
+from .export_scenes import DATA_PASSES, NOT_BEAUTY
+from .layer_writer import Writer
 from .output_names import LONGEST_LAYER
+from .seen_points import SeenPoints
+
+# Not the beginning of the other part's name, and cleaned up by the same pattern.
+SEEN = ".seen.part"
 
 
-def shot_writer(beauty_scene, beauty_layer, data):
-    """The writer of a frame: data, Cryptomatte, beauty, masks and truth, and notes on what is left out."""
+def shot_writer(beauty_scene, beauty_layer, data, middle_masks):
+    """The writer of a frame: data, Cryptomatte, beauty, masks and truth, and notes on what is left out.
+
+    `middle_masks` are layers that SeenPoints is to know of.
+    """
     writer = Writer(beauty_scene, "shot")
     # Scenes are rendered in the order of their nodes, and one that keeps no data throws away what
     # others keep: the beauty goes first, so that the depth maps find the data scene's geometry.
@@ -24,6 +32,8 @@ def shot_writer(beauty_scene, beauty_layer, data):
     notes = _add_beauty(writer, beauty)
     for layer, reading in data.layers.items():
         writer.add_reading(layer, reading)
+    if middle_masks:
+        writer.keep_for_seen_points(node, middle_masks)
     return writer, notes
 
 
@@ -57,23 +67,40 @@ def _add_beauty(writer, node):
 
 def render(writer, frame, path):
     """Render `writer`'s sources at `frame` into a part file beside `path`; returns the part's path."""
-    folder, name = os.path.split(path)
-    base = os.path.join(folder, f".{name}.part")
-    remove_parts(base)
-    writer.file.set_path(base)
+    base = _ready(writer.file, path, ".part")
+    if writer.seen_file:
+        _ready(writer.seen_file, path, SEEN)
     writer.scene.frame_set(frame)
     bpy.ops.render.render(scene=writer.scene.name)
+    part = _written(base, frame, path)
+    _check_layers(part, writer.names, frame)
+    return part
+
+
+def seen_points(frame, path):
+    """What the frame shows that was just rendered for `path`."""
+    return SeenPoints(_written(_base(path, SEEN), frame, path))
+
+
+def _base(path, ending):
+    folder, name = os.path.split(path)
+    return os.path.join(folder, f".{name}{ending}")
+
+
+def _ready(file, path, ending):
+    base = _base(path, ending)
+    for old in glob.glob(glob.escape(base) + "*"):
+        os.remove(old)
+    file.set_path(base)
+    return base
+
+
+def _written(base, frame, path):
     parts = glob.glob(glob.escape(base) + "*")
     if len(parts) != 1:
         raise ExportError(f"frame {frame}: Blender wrote no image for {path}; see its messages "
                           f"above")
-    _check_layers(parts[0], writer.names, frame)
     return parts[0]
-
-
-def remove_parts(base):
-    for old in glob.glob(glob.escape(base) + "*"):
-        os.remove(old)
 
 
 def _check_layers(part, names, frame):

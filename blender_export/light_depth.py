@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Renders a light's depth map: the scene as the light sees it, in its own render call."""
 
+import math
+
 import bpy
 from mathutils import Matrix
 
-from . import export_scenes, frame_image
-from .camera_view import hidden_points, visible_points
+from . import export_scenes, frame_image, vectors
 from .light_view import orthographic_view, perspective_view
-from .subject import bounding_sphere, corners_of, standing_things
+from .subject import corners_of, standing_things
 
 
 class LightDepth:
@@ -48,15 +49,25 @@ class LightDepth:
             data.type, data.sensor_fit, data.angle = 'PERSP', 'AUTO', light_view.extent
 
 
-def plan_view(state, scene, depsgraph, camera, things):
-    """The view of a light's depth map for what `camera` sees of `things`."""
+def plan_view(state, seen, things):
+    """The view of a light's depth map for what the camera sees of `things`.
+
+    `seen` are (point, whether the light's mask hides it) of the rendered frame.
+    """
     casters = corners_of(things)
-    visible = visible_points(scene, depsgraph, camera)
-    reach = 2.0 * bounding_sphere(casters).radius
-    hidden = hidden_points(scene, depsgraph, visible, state, reach)
-    framed = hidden + corners_of(standing_things(things))
-    seen = visible or casters
+    visible = [point for point, _ in seen]
+    framed = [point for point, hidden in seen if hidden and shines_toward(state, point)] \
+        + corners_of(standing_things(things))
     if state.kind == "sun":
-        return orthographic_view(state.direction, framed, seen, casters)
+        return orthographic_view(state.direction, framed, visible or casters, casters)
     cone = (state.direction, state.cone[0]) if state.cone else None
-    return perspective_view(state.position, framed, seen, cone)
+    return perspective_view(state.position, framed, visible or casters, cone)
+
+
+def shines_toward(state, point):
+    """Whether the light would reach the point if nothing hid it: in a spot's cone, before an area."""
+    if state.kind not in ("spot", "area"):
+        return True
+    way = vectors.subtract(point, state.position)
+    half = 0.5 * state.cone[0] if state.cone else 0.5 * math.pi
+    return vectors.dot(way, state.direction) > vectors.length(way) * math.cos(half)

@@ -35,6 +35,14 @@ class LightRig:
         self.truth_lamps += lamps
         data.add_truth_layer(layer, *lamps, samples)
 
+    @property
+    def middle_mask(self):
+        """The layer that is nearest to what the light's middle sees."""
+        if not self.masks:
+            return traced_layer(self.key)
+        names = self.masks.names
+        return names[len(names) // 2 if self.arrangement.kind == "line" else 0]
+
     def place(self, depsgraph, aim, radius):
         """Move the lamps to this frame's places; returns (light state, JSON entry).
 

@@ -30,7 +30,7 @@ class MaskBackends:
             return LayerMasks(self.data, light, kind, names)
         if by == "groups":
             return GroupMasks(self.data, light, kind, names)
-        return SightMasks(self.data, self._sight_material(), by, kind, names)
+        return SightMasks(self.data, self._shared_sight(), by, kind, names)
 
     def _way(self, light):
         by = self.wanted
@@ -68,9 +68,9 @@ class MaskBackends:
         self._ask = sight_nodes.ask_occlusion(turn)
         return None
 
-    def _sight_material(self):
+    def _shared_sight(self):
         if self._sight is None:
-            self._sight = self.data.add_sight_layer(self._ask)
+            self._sight = self.data.add_sight(self._ask, self.objects)
         return self._sight
 
     def _note(self, note):
@@ -105,7 +105,7 @@ class GroupMasks(LayerMasks):
 
 
 class SightMasks:
-    """AOVs in the one view layer that all lights share, written by the rays of its material."""
+    """AOVs in the one view layer that all lights share, written by the rays of its materials."""
 
     def __init__(self, data, sight, by, kind, names):
         self.by, self.names = by, names

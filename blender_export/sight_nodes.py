@@ -13,6 +13,7 @@ but for the few pixels where another caster's edge crosses there.
 
 import math
 
+import bpy
 from mathutils import Vector
 
 from .shader_words import ShaderWords
@@ -23,19 +24,25 @@ SHORT = 1.0 - 1e-5  # rays end this share of the way, so that what touches the l
 FAR = 1e7          # length of a ray to a sun
 
 
-class SightMaterial:
-    """The white material that writes every place's visibility; places are set frame by frame."""
+class Sight:
+    """A node group that writes every place's visibility; places are set frame by frame.
 
-    def __init__(self, material, ask):
+    It stands in a white material of its own, or in each of the artist's materials.
+    """
+
+    def __init__(self, ask):
         """`ask(words, toward, length, wanted)` is the socket of a ray's answer, 1 where it is free.
 
         `toward` is a vector socket, `length` how many of it the ray may go, and the ray may be
         left out where the socket `wanted` is 0.
         """
-        self.material, self.ask = material, ask
-        self.words = ShaderWords(material.node_tree)
-        self._on = material.node_tree.nodes.new('ShaderNodeValue').outputs[0]
+        self.group, self.ask = bpy.data.node_groups.new("kagefude sight", 'ShaderNodeTree'), ask
+        self.words = ShaderWords(self.group)
+        self._on = self.group.nodes.new('ShaderNodeValue').outputs[0]
         self.switch(1.0)
+
+    def put_into(self, material):
+        material.node_tree.nodes.new('ShaderNodeGroup').node_tree = self.group
 
     def switch(self, value):
         """With 0 no rays are sent, and all places count as hidden."""
@@ -48,6 +55,33 @@ class SightMaterial:
         self.words.write(self.words.number('MULTIPLY', wanted, self.ask(
             self.words, place.toward, place.length, wanted)), aov)
         return place
+
+
+def can_stand_in(objects):
+    """Whether the materials of all objects can hold the group and say what plain white would.
+
+    Not where a face may have no material, which nothing can be put into, and not where bumps turn
+    the normal that a mask knows nothing of.
+    """
+    return all(_holds(item) for item in objects if not _is_faceless(item))
+
+
+def _is_faceless(item):
+    return item.type == 'MESH' and not item.data.polygons and not item.modifiers
+
+
+def _holds(item):
+    # Geometry nodes may make faces of any material, or of none.
+    if not item.material_slots or any(modifier.type == 'NODES' for modifier in item.modifiers):
+        return False
+    return all(_is_plain(slot.material) for slot in item.material_slots)
+
+
+def _is_plain(material):
+    tree = material.node_tree if material and material.use_nodes else None
+    output = tree.get_output_node('CYCLES') if tree else None
+    return output is not None and output.inputs["Surface"].is_linked \
+        and not output.inputs["Displacement"].is_linked
 
 
 class Place:

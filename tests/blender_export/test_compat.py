@@ -150,6 +150,18 @@ class Compositor(unittest.TestCase):
             self.assertEqual(getattr(scene.render, "compositor_precision", 'FULL'), 'FULL')
         self.assertFalse(hasattr(scene_of(OLD).render, "compositor_device"))
 
+    def test_compositing_counts_where_there_is_some(self):
+        for version in (OLD, NEW):
+            scene, compat = scene_of(version), compat_of(version)
+            scene.use_nodes = True
+            if hasattr(scene, "compositing_node_group"):
+                scene.compositing_node_group = None
+            else:
+                scene.use_nodes = False
+            self.assertFalse(compat.has_compositing(scene))
+            compat.compositor_tree(scene)
+            self.assertTrue(compat.has_compositing(scene))
+
     def test_a_copied_scene_loses_its_compositing(self):
         for version in (OLD, NEW):
             scene = scene_of(version)
