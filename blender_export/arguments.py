@@ -17,10 +17,14 @@ MASK_BACKENDS = ("auto", "layers", "groups", "occlusion", "raycast")
 class Arrangement:
     """How the shadow masks lie on a light: `pair`, `line` or `disc`, and how many there are.
 
-    Or `trace`: no masks but the traced visibility, and how many samples a pixel it takes.
+    Or `trace`: no masks but the traced visibility, and how many samples a pixel it takes. What the
+    exporter makes of a disc by itself: `grid` on a rectangle, with `columns` along its longer side,
+    and `hard`, the one mask of a light of no size.
     """
     kind: str = "disc"
     count: int = 9
+    columns: int = 0
+    rows: int = 0
 
 
 @dataclass

@@ -1,22 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The masks' offset worked out from the physical light (`--offset auto`)."""
 
-import math
-
 # The masks stand apart even in a frame in which the light has shrunk to a point.
 LEAST_SHARE = 1e-5
 
 
-def area_offsets(radius, shape, half_u, half_v):
-    """Half axes of the ellipse on which a disc's masks lie: the light's own, or of a rectangle's area.
-
-    A rectangle's differs from it by at most a few hundredths of visibility.
-    """
+def area_offsets(radius, area):
+    """Half axes of an ellipse on which a disc's masks lie, half sides of a rectangle's grid."""
+    half_u, half_v = area["half_u"], area["half_v"]
     least = LEAST_SHARE * max(radius, half_u, LEAST_SHARE)
-    if half_u == half_v:
-        return max(radius, least), max(radius, least)
-    grown = 1.0 if shape == "ellipse" else 2.0 / math.sqrt(math.pi)
-    return max(grown * half_u, least), max(grown * half_v, least)
+    return max(half_u, least), max(half_v, least)
 
 
 def auto_offset(kind, radius, half_length, distance, subject_radius):

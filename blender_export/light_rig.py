@@ -41,7 +41,7 @@ class LightRig:
         if not self.masks:
             return traced_layer(self.key)
         names = self.masks.names
-        return names[len(names) // 2 if self.arrangement.kind == "line" else 0]
+        return names[len(names) // 2 if self.arrangement.kind in ("line", "grid") else 0]
 
     def place(self, depsgraph, aim, radius):
         """Move the lamps to this frame's places; returns (light state, JSON entry).
@@ -55,10 +55,11 @@ class LightRig:
         for lamp in self.truth_lamps:
             place_truth_lamp(lamp, state, evaluated)
         entry = self._describe(state, travel, subject, evaluated)
-        places = mask_positions.places_on_light(self.arrangement, travel, state.surface_axes)
+        arrangement = self._arrangement_on(entry)
+        places = mask_positions.places_on_light(arrangement, travel, state.surface_axes)
         entry["axes"] = {"u": list(places.u_axis), "v": list(places.v_axis)}
         if self.masks:
-            self._place_masks(state, travel, places, subject, entry)
+            self._place_masks(arrangement.kind, state, travel, places, subject, entry)
         elif self.masked:
             entry["traced"] = {"layer": traced_layer(self.key),
                                "samples": self.options.masks.count}
@@ -84,9 +85,16 @@ class LightRig:
             entry["position"] = list(vectors.add(subject.center, nominal))
         return entry
 
-    def _place_masks(self, state, travel, places, subject, entry):
-        masks = self.arrangement
-        offset, offset_v = self._offsets(state, subject, entry)
+    def _arrangement_on(self, entry):
+        """The arrangement asked for, but on a rectangle a disc's masks lie in rows and columns."""
+        area = entry.get("area")
+        if self.arrangement.kind != "disc" or self.options.offset or not area \
+                or area["shape"] != "rectangle":
+            return self.arrangement
+        return mask_positions.on_rectangle(self.arrangement.count, area["half_u"], area["half_v"])
+
+    def _place_masks(self, kind, state, travel, places, subject, entry):
+        offset, offset_v = self._offsets(kind, state, subject, entry)
         samples, stretch = [], offset_v / offset
         for number, (layer, place) in enumerate(zip(self.masks.names, places.places)):
             sample = {"layer": layer, "uv": list(place)}
@@ -100,19 +108,19 @@ class LightRig:
                 sample["position"] = list(position)
             self.masks.place(number, state, sample.get("position", entry["position"]), direction)
             samples.append(sample)
-        entry["masks"] = {"arrangement": masks.kind, "offset": offset, "samples": samples,
+        entry["masks"] = {"arrangement": kind, "offset": offset, "samples": samples,
                           "by": self.masks.by}
         if offset_v != offset:
             entry["masks"]["offset_v"] = offset_v
 
-    def _offsets(self, state, subject, entry):
-        """The masks' offsets along u and v."""
+    def _offsets(self, kind, state, subject, entry):
+        """The offsets along u and v of masks that lie as `kind` says."""
         if self.options.offset:
             return self.options.offset, self.options.offset
-        if self.arrangement.kind == "disc" and "area" in entry:
-            return light_offset.area_offsets(state.radius, **entry["area"])
+        if kind in ("disc", "grid") and "area" in entry:
+            return light_offset.area_offsets(state.radius, entry["area"])
         distance = vectors.length(vectors.subtract(state.position, subject.center))
-        offset = light_offset.auto_offset(self.arrangement.kind, state.radius, state.half_length,
+        offset = light_offset.auto_offset(kind, state.radius, state.half_length,
                                           distance, subject.radius)
         return offset, offset
 

@@ -11,6 +11,12 @@ import math
 from dataclasses import dataclass
 
 from . import vectors
+from .arguments import Arrangement
+
+
+# From how many times its width on a rectangle is a line. Measured with 5 to 33 masks: at 50 a line's
+# error is two thirds of a grid's, at 5 half as much again.
+NARROW = 16.0
 
 
 @dataclass
@@ -40,8 +46,30 @@ def places_on_light(arrangement, travel, surface_axes=None):
         v_axis = vectors.scale(back, -1.0)
     if arrangement.kind == "trace":
         return MaskPlaces(u_axis, v_axis, [])
-    places = _line(arrangement.count) if arrangement.kind == "line" else _disc(arrangement.count)
-    return MaskPlaces(u_axis, v_axis, places)
+    if arrangement.kind == "line":
+        return MaskPlaces(u_axis, v_axis, _line(arrangement.count))
+    if arrangement.kind == "grid":
+        return MaskPlaces(u_axis, v_axis, _grid(arrangement.columns, arrangement.rows))
+    return MaskPlaces(u_axis, v_axis, _disc(arrangement.count))
+
+
+def on_rectangle(count, half_u, half_v):
+    """The arrangement of `count` masks (of DISC_MASKS) on a rectangle of these half sides.
+
+    Rows and columns so that neighbours lie as near each other as they can.
+    """
+    if half_u >= NARROW * half_v:
+        return Arrangement("line", count)
+    shapes = []
+    for rows in range(2, count // 2 + 1):
+        columns = count // rows
+        # The centre is one of the places where both are odd, else it lies beside them.
+        spare = 1 - rows * columns % 2
+        if rows <= columns and rows * columns + spare == count:
+            gap = max(2.0 * half_u / (columns - 1), 2.0 * half_v / (rows - 1))
+            shapes.append((gap, columns, rows))
+    _, columns, rows = min(shapes)
+    return Arrangement("grid", count, columns, rows)
 
 
 def level_frame(travel):
@@ -71,6 +99,14 @@ def _facing(surface_axes, travel):
 
 def _line(count):
     return [(2.0 * number / (count - 1) - 1.0, 0.0) for number in range(count)]
+
+
+def _grid(columns, rows):
+    """The centre, the corners, then the other places row by row."""
+    lattice = [(u, v) for v, _ in _line(rows) for u, _ in _line(columns)]
+    first = [(0.0, 0.0)] + [(u, v) for v in (-1.0, 1.0) for u in (-1.0, 1.0)]
+    places = first + [place for place in lattice if place not in first]
+    return places
 
 
 # Radius and turn of the groups of eight that follow the centre: each fills the widest gaps that

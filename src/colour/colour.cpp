@@ -151,7 +151,7 @@ void Colour::toDisplay(View<float> red, View<float> green, View<float> blue,
                        std::string_view display, std::string_view view) const {
   const auto& config = state_->config;
   const auto [shownOn, seenAs] = shownThrough(display, view);
-  const auto make = [&] {
+  const auto make = [&, &shownOn = shownOn, &seenAs = seenAs] {
     return config->getProcessor(ocio::ROLE_SCENE_LINEAR, shownOn.c_str(), seenAs.c_str(),
                                 ocio::TRANSFORM_DIR_FORWARD);
   };

@@ -95,6 +95,7 @@ ShadowMethod arrangementMethod(MaskArrangement arrangement) {
     case MaskArrangement::line:
       return ShadowMethod::line;
     case MaskArrangement::disc:
+    case MaskArrangement::grid:
       return ShadowMethod::disc;
     case MaskArrangement::hard:
       return ShadowMethod::hard;

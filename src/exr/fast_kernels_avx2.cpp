@@ -2,6 +2,7 @@
 
 #if defined(__x86_64__)
 
+#include <cpuid.h>
 #include <immintrin.h>
 
 #define KAGEFUDE_AVX2 __attribute__((target("avx2,f16c")))
@@ -125,12 +126,18 @@ KAGEFUDE_AVX2 void floatToHalf(const float* in, size_t n, uint16_t* out) {
   plainExrKernels().floatToHalf(in + i, n - i, out + i);
 }
 
+/// F16C, which clang 14 does not know by name.
+bool convertsHalves() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  return __get_cpuid(1, &a, &b, &c, &d) && (c & bit_F16C);
+}
+
 }  // namespace
 
 const ExrKernels* avx2ExrKernels() {
   static const ExrKernels kernels = {"avx2",  sumBytes,    unpack,     split,
                                      predict, halfToFloat, floatToHalf};
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("f16c") ? &kernels : nullptr;
+  return __builtin_cpu_supports("avx2") && convertsHalves() ? &kernels : nullptr;
 }
 
 }  // namespace kagefude

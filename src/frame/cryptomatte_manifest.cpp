@@ -64,24 +64,27 @@ void readManifestFile(const ImageFile& file, const std::string& relative, Manife
   }
 }
 
+std::optional<std::string> describedBy(const ImageFile& file, const Cryptomatte& cryptomatte,
+                                       const char* what) {
+  if (cryptomatte.key.empty()) return std::nullopt;
+  return file.textOfPart(cryptomatte.part, cryptomatte.key + what);
+}
+
 }  // namespace
 
 std::optional<std::filesystem::path> manifestFile(const ImageFile& file,
                                                   const Cryptomatte& cryptomatte) {
-  if (cryptomatte.key.empty()) return std::nullopt;
-  const std::string base = "cryptomatte/" + cryptomatte.key;
-  const auto beside = file.text(base + "/manif_file");
-  if (!beside || file.text(base + "/manifest") || !staysInFolder(*beside)) return std::nullopt;
+  const auto beside = describedBy(file, cryptomatte, "/manif_file");
+  if (!beside || beside->empty() || describedBy(file, cryptomatte, "/manifest") ||
+      !staysInFolder(*beside))
+    return std::nullopt;
   return file.path.parent_path() / *beside;
 }
 
 Manifest readManifest(const ImageFile& file, const Cryptomatte& cryptomatte) {
   Manifest manifest;
-  const auto textOf = [&](const char* what) -> std::optional<std::string> {
-    if (cryptomatte.key.empty()) return std::nullopt;
-    return file.textOfPart(cryptomatte.part, cryptomatte.key + what);
-  };
-  const auto inHeader = textOf("/manifest"), beside = textOf("/manif_file");
+  const auto inHeader = describedBy(file, cryptomatte, "/manifest");
+  const auto beside = describedBy(file, cryptomatte, "/manif_file");
   if (inHeader) {
     parseManifest(*inHeader,
                   fmt::format("the manifest of {} in {}", cryptomatte.name, file.path.string()),

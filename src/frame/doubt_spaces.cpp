@@ -14,8 +14,13 @@ using namespace detail;
 
 constexpr size_t fewestPlaces = 64;
 // Deviations are 1 - cos: 5 degrees pass; what is named must lie within 26, and fit four times
-// better; 45 degrees are worth a word even where nothing explains them.
-constexpr float passes = 0.004f, namedWithin = 0.1f, muchBetter = 0.25f, hopeless = 0.3f;
+// better in the middle or two and a half times in the mean, which strong bumps raise; 45 degrees
+// are worth a word even where nothing explains them.
+constexpr float passes = 0.004f, namedWithin = 0.1f, muchBetter = 0.25f, better = 0.4f;
+constexpr float hopeless = 0.3f;
+// A ground that fills the picture may agree with another reading than all that stands on it: even
+// where the middle agrees, so small a share of places beyond `namedWithin` is looked into.
+constexpr double fewWrong = 0.02;
 
 float deviationAt(const SmoothPlace& place, const NormalReading& reading) {
   const V3f n = reading(place.given);
@@ -27,6 +32,13 @@ float meanDeviation(const std::vector<SmoothPlace>& places, const NormalReading&
   double sum = 0;
   for (const SmoothPlace& place : places) sum += deviationAt(place, reading);
   return static_cast<float>(sum / static_cast<double>(places.size()));
+}
+
+std::vector<SmoothPlace> placesBeyond(const std::vector<SmoothPlace>& places, float deviation) {
+  std::vector<SmoothPlace> far;
+  std::copy_if(places.begin(), places.end(), std::back_inserter(far),
+               [&](const SmoothPlace& place) { return deviationAt(place, {}) > deviation; });
+  return far;
 }
 
 // Half of the places deviate less than this.
@@ -46,34 +58,46 @@ bool holdsUnitRange(const std::vector<SmoothPlace>& places) {
   });
 }
 
-// The simplest of the readings that fit about as well as the best. Where a flat ground fills half
-// of the picture many readings fit in the middle; the mean over all places tells them apart.
-std::optional<NormalReading> explain(const std::vector<SmoothPlace>& places,
-                                     const std::optional<Transform>& camera, float plain) {
-  std::vector<std::pair<float, NormalReading>> tried;
-  float best = 2;
+struct Trial {
+  float middle, mean;
+  NormalReading reading;
+};
+
+std::vector<Trial> tryAll(const std::vector<SmoothPlace>& places,
+                          const std::optional<Transform>& camera) {
+  std::vector<Trial> trials;
   for (NormalReading reading : allAxes())
     for (const bool unit : {false, true})
       for (const bool turned : {false, true}) {
         if ((unit && !holdsUnitRange(places)) || (turned && !camera)) continue;
         reading.unit = unit;
         reading.worldFromCamera = turned ? std::optional(camera->inverse()) : std::nullopt;
-        tried.emplace_back(middleDeviation(places, reading), reading);
-        best = std::min(best, tried.back().first);
+        trials.push_back(
+            {middleDeviation(places, reading), meanDeviation(places, reading), reading});
       }
-  if (best > namedWithin || best > muchBetter * plain) return std::nullopt;
-  std::erase_if(tried, [&](const auto& one) { return one.first > 1.5f * best + 0.002f; });
-  float bestMean = 2;
-  for (auto& [deviation, reading] : tried) {
-    deviation = meanDeviation(places, reading);
-    bestMean = std::min(bestMean, deviation);
+  return trials;
+}
+
+// The simplest of the readings that fit about as well as the best. Where a flat ground fills half
+// of the picture many readings fit in the middle, the plain one perhaps; the mean over all places
+// tells them apart.
+std::optional<NormalReading> explain(const std::vector<SmoothPlace>& places,
+                                     const std::optional<Transform>& camera) {
+  const float plain = meanDeviation(places, {}), plainMiddle = middleDeviation(places, {});
+  std::vector<Trial> trials = tryAll(places, camera);
+  std::erase_if(trials, [](const Trial& trial) { return trial.middle > namedWithin; });
+  float best = 2, bestMiddle = 2;
+  for (const Trial& trial : trials) {
+    best = std::min(best, trial.mean);
+    bestMiddle = std::min(bestMiddle, trial.middle);
   }
+  if (best > better * plain && bestMiddle > muchBetter * plainMiddle) return std::nullopt;
   const NormalReading* simplest = nullptr;
-  for (const auto& [deviation, reading] : tried)
-    if (deviation <= 1.5f * bestMean + 0.002f &&
-        (!simplest || reading.departures() < simplest->departures()))
-      simplest = &reading;
-  return *simplest;
+  for (const Trial& trial : trials)
+    if (trial.mean <= 1.2f * best + 0.001f &&
+        (!simplest || trial.reading.departures() < simplest->departures()))
+      simplest = &trial.reading;
+  return simplest->isPlain() ? std::nullopt : std::optional(*simplest);
 }
 
 double degreesOf(float deviation) {
@@ -119,16 +143,20 @@ SpaceDoubt doubtSpaces(const VectorSpaces& spaces, const ImageFile& file, Vec3Vi
   const std::vector<SmoothPlace> places = smoothPlaces(position, normal, ids);
   if (places.size() < fewestPlaces) return {};
   const float plain = middleDeviation(places, {});
-  if (plain <= passes) return {};
-  const auto found =
-      explain(places, spaces.cameraFromWorld ? spaces.cameraFromWorld : fitted, plain);
+  const std::vector<SmoothPlace> wrong = placesBeyond(places, namedWithin);
+  const bool hidden = plain <= passes;
+  if (hidden && static_cast<double>(wrong.size()) < fewWrong * static_cast<double>(places.size()))
+    return {};
+  const auto found = explain(places, spaces.cameraFromWorld ? spaces.cameraFromWorld : fitted);
   const bool asked = spaces.normal != VectorSpace::automatic ||
                      spaces.range != NormalRange::automatic || !spaces.axes.empty();
   if (found && !asked)
-    return {true, fmt::format("the normals {}: as they are they stand {:.0f} degrees off the "
-                              "positions' slopes; set {} (or frame.normal_space = \"world\" to "
-                              "take them as they are)",
-                              found->sentence(), degreesOf(plain), found->settings())};
+    return {true,
+            fmt::format("the normals {}: as they are they stand {:.0f} degrees off the "
+                        "positions' slopes{}; set {} (or frame.normal_space = \"world\" to "
+                        "take them as they are)",
+                        found->sentence(), degreesOf(hidden ? middleDeviation(wrong, {}) : plain),
+                        hidden ? " where these are not flat ground" : "", found->settings())};
   if (plain <= hopeless) return {};
   return {false,
           fmt::format("the normals stand {:.0f} degrees off the positions' slopes in half of "

@@ -55,13 +55,14 @@ MaskSample readSample(const JsonPlace& json) {
 
 LightMasks readMasks(const JsonPlace& json) {
   LightMasks masks;
-  masks.arrangement =
-      static_cast<MaskArrangement>(json["arrangement"].choice({"pair", "line", "disc", "hard"}));
+  masks.arrangement = static_cast<MaskArrangement>(
+      json["arrangement"].choice({"pair", "line", "disc", "hard", "grid"}));
   masks.offset = json["offset"].number(0, large);
   masks.offsetV = json.has("offset_v") ? json["offset_v"].number(0, large) : masks.offset;
   const bool pair = masks.arrangement == MaskArrangement::pair;
   const bool hard = masks.arrangement == MaskArrangement::hard;
-  const size_t fewest = masks.arrangement == MaskArrangement::disc ? 4 : hard ? 1 : 2;
+  const bool grid = masks.arrangement == MaskArrangement::grid;
+  const size_t fewest = masks.arrangement == MaskArrangement::disc ? 4 : grid ? 5 : hard ? 1 : 2;
   const size_t most = pair ? 2 : hard ? 1 : mostSamples;
   for (const JsonPlace& sample : json["samples"].list(fewest, most)) {
     masks.samples.push_back(readSample(sample));

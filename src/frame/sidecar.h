@@ -31,12 +31,13 @@ struct MaskSample {
   double u = 0, v = 0;           ///< place on the light in units of the arrangement's offset
 };
 
-enum class MaskArrangement { pair, line, disc, hard };
+enum class MaskArrangement { pair, line, disc, hard, grid };
 
 struct LightMasks {
   MaskArrangement arrangement = MaskArrangement::pair;
-  double offset = 0;   ///< world units; pair: the seed's l; line: half its length; disc: its radius
-  double offsetV = 0;  ///< of a stretched disc, along v; else as `offset`
+  double offset = 0;  ///< world units; pair: the seed's l; line: half its length; disc: its radius;
+                      ///< grid: half its longer side
+  double offsetV = 0;  ///< of a stretched disc or a grid, along v; else as `offset`
   std::vector<MaskSample> samples;
 };
 

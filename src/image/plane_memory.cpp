@@ -11,8 +11,11 @@
 namespace kagefude {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr bool keeps = false;  // so that a use after freeing is found
+// Not under the address sanitizer (of GCC, of clang), so that a use after freeing is found.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool keeps = false;
+#elif defined(__has_feature)
+constexpr bool keeps = !__has_feature(address_sanitizer);
 #else
 constexpr bool keeps = true;
 #endif
@@ -69,6 +72,7 @@ class KeptBlocks {
   void release() {
     std::lock_guard lock(mutex_);
     keepWithin(0);
+    most_ = used_;
   }
 
  private:

@@ -16,7 +16,7 @@ void* takePlaneMemory(size_t bytes);
 /// Gives back what takePlaneMemory gave for `bytes`. Null is allowed.
 void givePlaneMemory(void* memory, size_t bytes) noexcept;
 
-/// Frees what is kept; for measurements of memory.
+/// Frees what is kept and forgets the peak before now, as a new process; to measure memory.
 void releaseKeptPlaneMemory();
 
 }  // namespace kagefude

@@ -1,5 +1,6 @@
 // The nearest-site search against the peers that people would use instead: OpenCV's exact distance
 // transform, whole and per object, and scipy's with indices. 3840 x 2160, two threads.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

@@ -188,14 +188,16 @@ class Export(unittest.TestCase):
         for index, motion in zip(self.channel_ids, self.channel("data.Vector.X")):
             self.assertEqual(abs(motion) > 0.5, index == ball)
 
-    def test_disc_lies_on_the_light(self):
+    def test_masks_lie_on_the_light(self):
         for light in self.document["lights"]:
             u, v = light["axes"]["u"], light["axes"]["v"]
             offset = light["masks"]["offset"]
             offset_v = light["masks"].get("offset_v", offset)
-            # An area has the ellipse of its own shape and area.
-            self.assertAlmostEqual(math.sqrt(offset * offset_v), light["radius"], 5)
-            self.assertEqual(offset_v != offset, light["type"] == "area")
+            flat = light["type"] == "area"
+            self.assertEqual(light["masks"]["arrangement"], "grid" if flat else "disc")
+            for found, wanted in zip((offset, offset_v),
+                                     (0.75, 0.15) if flat else [light["radius"]] * 2):
+                self.assertAlmostEqual(found, wanted, 5)
             if light["type"] == "sun":
                 continue
             for sample in light["masks"]["samples"]:
@@ -204,6 +206,8 @@ class Export(unittest.TestCase):
                 for a, b in zip(sample["position"], wanted):
                     self.assertAlmostEqual(a, b, 5)
         area = self.entry("lights", "Area")
+        self.assertEqual({tuple(sample["uv"]) for sample in area["masks"]["samples"][1:]},
+                         {(-1, -1), (1, -1), (-1, 1), (1, 1)})
         self.assertAlmostEqual(area["radius"], math.sqrt(1.5 * 0.3 / math.pi), 5)
         self.assertAlmostEqual(self.entry("lights", "Sun")["radius"], math.tan(math.radians(3)), 6)
 

@@ -125,12 +125,46 @@ class AutoOffset(unittest.TestCase):
             offset = self.offset(kind, radius=0.0, half_length=0.0)
             self.assertTrue(0.0 < offset < 1e-3, (kind, offset))
 
-    def test_a_disc_of_masks_follows_the_shape_of_an_area(self):
-        self.assertEqual(light_offset.area_offsets(0.5, "ellipse", 1.25, 0.2), (1.25, 0.2))
-        u, v = light_offset.area_offsets(0.378, "rectangle", 0.75, 0.15)
-        self.assertAlmostEqual(math.pi * u * v, 1.5 * 0.3)
-        self.assertAlmostEqual(u / v, 5.0)
-        self.assertEqual(light_offset.area_offsets(0.7, "rectangle", 0.6, 0.6), (0.7, 0.7))
+    def test_masks_follow_the_shape_of_an_area(self):
+        for shape in ("ellipse", "rectangle"):
+            area = {"shape": shape, "half_u": 1.25, "half_v": 0.2}
+            self.assertEqual(light_offset.area_offsets(0.5, area), (1.25, 0.2))
+
+
+class OnRectangle(unittest.TestCase):
+    def shape(self, count, half_u, half_v):
+        found = mask_positions.on_rectangle(count, half_u, half_v)
+        self.assertEqual(found.count, count)
+        return (found.columns, found.rows) if found.kind == "grid" else found.kind
+
+    def test_rows_and_columns_follow_the_sides(self):
+        self.assertEqual(self.shape(9, 0.4, 0.4), (3, 3))
+        self.assertEqual(self.shape(9, 0.75, 0.15), (4, 2))
+        self.assertEqual(self.shape(5, 0.75, 0.15), (2, 2))
+        self.assertEqual(self.shape(17, 0.4, 0.4), (4, 4))
+        self.assertEqual(self.shape(17, 0.75, 0.15), (8, 2))
+        self.assertEqual(self.shape(33, 1.5, 0.4), (11, 3))
+        self.assertEqual(self.shape(65, 0.4, 0.4), (8, 8))
+
+    def test_a_very_narrow_one_is_a_line(self):
+        for count in (5, 9, 17, 33, 65):
+            self.assertEqual(self.shape(count, 1.25, 0.0), "line")
+            self.assertEqual(self.shape(count, 1.25, 0.025), "line")
+            self.assertNotEqual(self.shape(count, 1.25, 0.1), "line")
+
+    def test_a_grid_has_its_centre_first_and_its_corners_next(self):
+        corners = {(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)}
+        for count in (5, 9, 17, 33, 65):
+            for half_v in (1.0, 0.3, 0.1):
+                arrangement = mask_positions.on_rectangle(count, 1.0, half_v)
+                places = mask_positions.places_on_light(arrangement, (0.0, 0.0, -1.0)).places
+                self.assertEqual(len(places), count)
+                self.assertEqual(len(set(places)), count)
+                self.assertEqual(places[0], (0.0, 0.0))
+                self.assertEqual(set(places[1:5]), corners)
+                for axis in (0, 1):
+                    self.assertAlmostEqual(sum(place[axis] for place in places), 0.0)
+                    self.assertLessEqual(max(abs(place[axis]) for place in places), 1.0)
 
 
 if __name__ == "__main__":

@@ -88,6 +88,23 @@ TEST_F(Spaces, FlippedNormalsAreNamed) {
   expectRemedy("frame.normal_axes = \"-x -y -z\"");
 }
 
+TEST_F(Spaces, AFlipThatTheGroundDoesNotShowIsNamed) {
+  changeNormals([](const V3f& n) { return V3f(n.x, -n.y, n.z); });
+  expectRemedy("frame.normal_axes = \"x -y z\"");
+  changeNormals([](const V3f& n) { return V3f(n.y, n.x, n.z); });
+  expectRemedy("frame.normal_axes = \"y x z\"");
+}
+
+TEST_F(Spaces, SmoothShadingOfFewFacesIsBelieved) {
+  changeNormals([](const V3f& n) {
+    const V3f size(std::fabs(n.x), std::fabs(n.y), std::fabs(n.z));
+    const float most = std::max({size.x, size.y, size.z});
+    const V3f face(size.x == most ? n.x : 0, size.y == most ? n.y : 0, size.z == most ? n.z : 0);
+    return (n + face.normalized() * 0.8f).normalized();
+  });
+  EXPECT_TRUE(read().warnings.empty());
+}
+
 TEST_F(Spaces, BumpsAreBelieved) {
   int step = 0;
   changeNormals([&](const V3f& n) {

@@ -92,8 +92,8 @@ TEST_F(ExrFastHostile, ASmallFileCannotClaimABigImage) {
 }
 
 TEST_F(ExrFastHostile, TheCollectionOfDamagedFiles) {
-  const std::filesystem::path folder = kagefude::testing::sourceFolder() / "../shared/data";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared data here";
+  const std::filesystem::path folder = kagefude::testing::sampleFolder();
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the sample files are not here";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
     SCOPED_TRACE(entry.path().string());
@@ -127,8 +127,8 @@ int compareWithOiio(const std::string& path, const FastExr& file, int part) {
 }
 
 TEST_F(ExrFastHostile, SoundFilesOfTheCollectionEqualOiio) {
-  const std::filesystem::path folder = kagefude::testing::sourceFolder() / "../shared/data";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared data here";
+  const std::filesystem::path folder = kagefude::testing::sampleFolder();
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the sample files are not here";
   int compared = 0;
   for (const char* const sub : {"windows", "cryptomatte"}) {
     for (const auto& entry : std::filesystem::directory_iterator(folder / sub)) {

@@ -13,6 +13,7 @@
 #include <OpenEXR/ImfVecAttribute.h>
 #include <OpenImageIO/imageio.h>
 #include <tbb/global_control.h>
+#include <algorithm>
 
 #include <fstream>
 #include <iterator>
@@ -207,7 +208,6 @@ TEST_F(ExrFastWrite, ReportsAFullDiskAndAMissingFolder) {
   } catch (const OutputError& error) {
     EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
   }
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   try {
     writeFastExr("/dev/full", imageOf(part));
     FAIL();

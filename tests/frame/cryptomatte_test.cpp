@@ -117,6 +117,17 @@ TEST_F(CryptomatteFile, ManifestFilesOutsideTheFolderAreNotOpened) {
             1u);
 }
 
+TEST_F(CryptomatteFile, TellsWhichFileItsNamesComeFrom) {
+  const auto sourceOf = [&](const std::map<std::string, std::string>& attributes) {
+    const ImageFile file = fileOf(attributes);
+    return manifestFile(file, listCryptomattes(file).at(0));
+  };
+  EXPECT_EQ(sourceOf(named("manif_file", "m.json")), folder_ / "m.json");
+  EXPECT_FALSE(sourceOf(named("manifest", "{}")));
+  EXPECT_FALSE(sourceOf(named("manif_file", "../m.json")));
+  EXPECT_FALSE(sourceOf(named("manif_file", "")));
+}
+
 TEST_F(CryptomatteFile, OtherHashesAreRefused) {
   expectContains(messageOf<InputError>(
                      [&] { readCryptomatte(fileOf(named("hash", "CRC32")), "CryptoObject"); }),

@@ -77,11 +77,7 @@ inline void expectContains(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in: " << text;
 }
 
-/// Sample files that are not part of the repository.
-inline std::filesystem::path sampleFolder() {
-  return kagefude::testing::sourceFolder() / ".." / "shared" / "data";
-}
-
+/// For tests that only add to others of the same thing on files that they make themselves.
 #define KAGEFUDE_NEEDS_SAMPLES()                                           \
   if (!std::filesystem::is_directory(kagefude::testing::sampleFolder())) { \
     GTEST_SKIP() << "the sample files are not beside the repository";      \

@@ -154,6 +154,11 @@ TEST_F(SidecarTest, ReadsStretchedDiscsHardMasksAndWhatIsNotPainted) {
   expectContains(messageOf<InputError>([&] { read(changed); }), "should be a list of 1");
   changed["lights"][0]["masks"]["samples"].erase(1);
   EXPECT_EQ(read(changed).lights[0].masks->arrangement, MaskArrangement::hard);
+  changed["lights"][0]["masks"]["arrangement"] = "grid";
+  expectContains(messageOf<InputError>([&] { read(changed); }), "should be a list of 5");
+  json& samples = changed["lights"][0]["masks"]["samples"];
+  while (samples.size() < 5) samples.push_back(samples[0]);
+  EXPECT_EQ(read(changed).lights[0].masks->arrangement, MaskArrangement::grid);
 }
 
 TEST_F(SidecarTest, ReadsWhatRestsAndWhatIsInstanced) {

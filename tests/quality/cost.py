@@ -116,8 +116,8 @@ def main():
     numbers = lambda text: [int(word) for word in text.split(",")]  # noqa: E731
     parser = argparse.ArgumentParser(prog="cost.sh", allow_abbrev=False)
     parser.add_argument("--scenes", default=["ball_and_box", "heads"], type=lambda t: t.split(","))
-    parser.add_argument("--samples", default=[16, 64, 256, 512], type=numbers)
-    parser.add_argument("--truth", default=1024, type=int)
+    parser.add_argument("--samples", default=[16, 64, 256], type=numbers)
+    parser.add_argument("--truth", default=512, type=int)
     parser.add_argument("--by", default=["auto", "layers", "groups"], type=lambda t: t.split(","))
     options = parser.parse_args()
     global KAGEFUDE

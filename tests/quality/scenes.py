@@ -14,6 +14,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "examples"))
 
 import bpy  # noqa: E402  (after the path, with the modules that need it)
+from mathutils import Vector  # noqa: E402
 
 import scene_tools as tools  # noqa: E402
 
@@ -138,10 +139,42 @@ def large_light():
     tools.box("Peg", (0.3, -1.1, 0.0), (0.42, -0.98, 0.5), matte("Peg"))
 
 
+def lamp_shape(shape, length, width):
+    """The ball and the box under an area lamp whose longer side lies level, across the light."""
+    scene, lamp = stage(side=192)
+    lamp.data = bpy.data.lights.new("Key", 'AREA')
+    lamp.data.shape, lamp.data.size, lamp.data.size_y, lamp.data.energy = shape, length, width, 600
+    ahead = Vector((0.2, 0.2, 0.0)) - lamp.location
+    lamp.rotation_euler = ahead.to_track_quat('-Z', 'X').to_euler()  # its x level
+    ball("Ball", (-0.5, -0.3, 0.6), 0.6, matte("Ball"))
+    tools.box("Box", (0.7, 0.3, 0.0), (1.6, 1.2, 0.9), matte("Box"))
+
+
+def disk_lamp():
+    lamp_shape('DISK', 0.8, 0.8)
+
+
+def ellipse_lamp():
+    lamp_shape('ELLIPSE', 2.5, 0.4)
+
+
+def square_lamp():
+    lamp_shape('SQUARE', 0.8, 0.8)
+
+
+def rectangle_lamp():
+    lamp_shape('RECTANGLE', 1.5, 0.3)
+
+
+def tube_lamp():
+    """So long and narrow that it is nearly a line."""
+    lamp_shape('RECTANGLE', 2.5, 0.05)
+
+
 def heads():
     """A million triangles: what a mask costs where the geometry does (for cost.sh)."""
     scene, _ = stage(lens=40, eye=(1.2, -6.0, 4.6))
-    scene.render.resolution_x, scene.render.resolution_y = 960, 540
+    scene.render.resolution_x, scene.render.resolution_y = 480, 270
     surface = matte("Head")
     for number in range(4):
         bpy.ops.mesh.primitive_monkey_add(
@@ -169,7 +202,8 @@ def moving():
 
 
 SCENES = {build.__name__: build for build in (
-    ball_and_box, column, head, fence, ring, crossing, foreground, large_light, wires, moving, heads)}
+    ball_and_box, column, head, fence, ring, crossing, foreground, large_light, wires, moving, heads,
+    disk_lamp, ellipse_lamp, square_lamp, rectangle_lamp, tube_lamp)}
 
 
 def main():

@@ -10,7 +10,7 @@ Sidecar frameOf(double subjectRadius, double offset = 0.3) {
   light.name = "Key";
   light.radius = 0.3;
   light.subjectRadius = subjectRadius;
-  light.masks = LightMasks{MaskArrangement::disc, offset, {}};
+  light.masks = LightMasks{MaskArrangement::disc, offset, 0, {}};
   Sidecar sidecar;
   sidecar.lights = {light};
   return sidecar;
@@ -56,7 +56,7 @@ TEST(ShotBreaks, RoundingAndLightsThatComeAreNone) {
 
 TEST(ShotBreaks, FramesOfTwoExportsAreNamed) {
   Sidecar early = frameOf(1), late = frameOf(1);
-  early.shot = WholeShot{1, 24, {0, 0, 0}, 1, 5, {{"Key", 2, 2}}};
+  early.shot = WholeShot{1, 24, {0, 0, 0}, 1, 5, {{"Key", 2, 2, {}, {}}}};
   late.shot = early.shot;
   EXPECT_TRUE(breaksOf({early, late}).empty());
   late.shot->lights[0].irradiance = 3;

@@ -57,18 +57,20 @@ struct LightGeometry {
   bool sphere = false;  ///< the light is round from every side: its disc faces each receiver
 };
 
-/// What masks lie on: all with v = 0 are a line, else a disc whose first mask is the centre.
+/// What masks lie on: all with v = 0 are a line; with masks at (±1, ±1) a rectangle; else a disc.
+/// The first mask of a disc or a rectangle is its centre.
 struct LightShapeResult {
   Floats visibility;
   Floats confidence;  ///< 1 where distances are measured, falling to 0 where they are extrapolated
 };
 
-/// Visibility of a disc or line light from K hard masks of known places: the share of the light
-/// from which the pixel is seen.
+/// Visibility of a disc, rectangle or line light from K hard masks of known places: the share of
+/// the light from which the pixel is seen.
 ///
 /// masks: 0 = hidden from that place, else seen. places: of the masks, in radii; a disc has its
 /// centre first, then a ring in turning order, which may be followed by masks anywhere in it
-/// (disc_places.h); a line has v = 0 and rising u. labels:
+/// (disc_places.h); a rectangle its centre, then its four corners and any others of it, in half
+/// sides; a line has v = 0 and rising u. labels:
 /// 0 = background, visibility 1, confidence 1; object ids or surface labels, as `bound` asks.
 /// position, normal: world; used with `follow` only, and may then be empty, like `geometry`:
 /// shadows are then not followed.
@@ -77,10 +79,10 @@ struct LightShapeResult {
 /// when lit, half a pixel short of the nearest pixel of the other kind. Where the light moves a
 /// little the edge moves a little, so s is interpolated over the light and the result is the share
 /// where it is positive: exact over each wedge of a disc (method.md section 4) or each triangle
-/// between its masks (light_mesh.h), over each piece of a line, or by the closed form for one plane
-/// through all masks (disc = linear). follow: a shadow thinner than its shift between neighbouring
-/// masks is missed by that. There the shift is found by matching the masks (see shadow_follow.h)
-/// and the masks are moved along it.
+/// between its masks (light_mesh.h; a rectangle's always), over each piece of a line, or by the
+/// closed form for one plane through all masks (disc = linear). follow: a shadow thinner than its
+/// shift between neighbouring masks is missed by that. There the shift is found by matching the
+/// masks (see shadow_follow.h) and the masks are moved along it.
 ///
 /// lightSize is continuous; 0 equals the hard mask of the centre (a line's: its middle).
 /// Degenerate: a mask without a pixel of the other kind in the label stands in with the largest

@@ -69,11 +69,22 @@ bool placesOnRing(std::span<const V2f> places) {
          (turnsBy(step.sin) || turnsBy(-step.sin));
 }
 
+bool placesOnRectangle(std::span<const V2f> places) {
+  constexpr float close = 0.01f;  // a JSON may round
+  const auto holds = [&](float x, float y) {
+    return std::any_of(places.begin(), places.end(), [&](const V2f& p) {
+      return std::fabs(p.x - x) < close && std::fabs(p.y - y) < close;
+    });
+  };
+  return holds(-1, -1) && holds(1, -1) && holds(-1, 1) && holds(1, 1);
+}
+
 LightShare::LightShare(std::span<const V2f> places, bool linear, float radius)
     : places_(places.begin(), places.end()),
       line_(placesOnLine(places)),
       linear_(linear),
       ring_(placesOnRing(places)),
+      rectangle_(placesOnRectangle(places)),
       radius_(radius) {
   if (!line_ && !linear_ && !ring_) buildMesh();
   moment_ = 0.5f * static_cast<float>(places.size() - 1);
@@ -95,8 +106,8 @@ void LightShare::fitPlane() {
     vv += double{p.y} * p.y;
   }
   constexpr double balanced = 0.15;  // of a mask's share: the groups of discPlaces
-  if (std::max({std::fabs(su), std::fabs(sv), std::fabs(uv), std::fabs(uu - vv)}) < balanced * n)
-    return;
+  const double off = std::max({std::fabs(su), std::fabs(sv), std::fabs(uv), std::fabs(uu - vv)});
+  if (!rectangle_ && off < balanced * n) return;
   const double mu = su / n, mv = sv / n;
   const double a = uu - n * mu * mu, b = uv - n * mu * mv, d = vv - n * mv * mv;
   const double determinant = a * d - b * b;
@@ -114,8 +125,8 @@ void LightShare::buildMesh() {
   if (!(mesh.area() > 0.0f)) return;
   triangles_.assign(mesh.triangles().begin(), mesh.triangles().end());
   for (LightMesh::Triangle& t : triangles_) t.area /= mesh.area();
-  // As the octagon below: the mesh grows until its area is the disc's.
-  const float reach = radius_ * std::sqrt(pi / mesh.area());
+  // As the octagon below: a disc's mesh grows until its area is the disc's.
+  const float reach = rectangle_ ? radius_ : radius_ * std::sqrt(pi / mesh.area());
   for (const V2f& place : places_) corners_.push_back(mesh.blendAt(place * reach));
 }
 
@@ -182,9 +193,17 @@ float LightShare::ofPlane(const float* s) const {
     for (size_t k = 0; k < places_.size(); ++k) plane += fit_[k] * s[k];
     mean = plane.x;
     slope = std::sqrt(plane.y * plane.y + plane.z * plane.z) * radius_;
+    if (rectangle_ && slope > 1e-6f)
+      return rectangleShare(mean, plane.y * radius_, plane.z * radius_);
   }
   if (!(slope > 1e-6f)) return (radius_ > 0 ? mean : s[0]) > 0 ? 1.0f : 0.0f;
   return discShare(mean / slope);
+}
+
+/// Exact: the plane through the corners, over both halves of the rectangle.
+float LightShare::rectangleShare(float mean, float u, float v) const {
+  const float a = mean - u - v, b = mean + u - v, c = mean + u + v, d = mean - u + v;
+  return 0.5f * (positiveShare(a, b, c) + positiveShare(a, c, d));
 }
 
 float LightShare::ofWedges(const float* s) const {

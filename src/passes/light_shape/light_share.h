@@ -22,13 +22,18 @@ float discShare(float d);
 /// Whether places are a disc's centre and then 4 or 8 on its rim, evenly in turning order.
 bool placesOnRing(std::span<const V2f> places);
 
+/// Whether places are of a rectangle: those at its four corners (±1, ±1) are among them.
+bool placesOnRectangle(std::span<const V2f> places);
+
 /// Turns signed distances at a light's masks into the share of the light with positive distance.
-/// A disc's centre and ring are integrated over wedges; places anywhere else over the triangles
-/// between them, grown to the disc's area. Places that are all one, or on a line that is not v = 0,
-/// give the share of masks with positive distance.
+/// A disc's centre and ring are integrated over wedges; a rectangle's places over the triangles
+/// between them, which cover it; places anywhere else likewise, grown to the disc's area. Places
+/// that are all one, or on a line that is not v = 0, give the share of masks with positive
+/// distance.
 class LightShare {
  public:
-  /// places: as lightShapeVisibility takes them. radius: of the light, in units of place.
+  /// places: as lightShapeVisibility takes them. radius: of the light, in units of place; a
+  /// rectangle's half sides.
   LightShare(std::span<const V2f> places, bool linear, float radius);
 
   /// s: one signed distance for each mask.
@@ -37,6 +42,7 @@ class LightShare {
  private:
   float ofLine(const float* s) const;
   float ofPlane(const float* s) const;
+  float rectangleShare(float mean, float u, float v) const;
   float ofWedges(const float* s) const;
   float ofMesh(const float* s) const;
   float meanOf(const float* s) const;
@@ -44,7 +50,7 @@ class LightShare {
   void fitPlane();
 
   std::vector<V2f> places_;
-  bool line_, linear_, ring_;
+  bool line_, linear_, ring_, rectangle_;
   float radius_;
   float moment_;          ///< of the places about an axis of the disc
   std::vector<V3f> fit_;  ///< mean, u, v of the plane through any other places, by mask

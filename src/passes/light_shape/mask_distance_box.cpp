@@ -1,5 +1,6 @@
 #include "passes/light_shape/mask_distance_box.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "image/clones.h"

@@ -1,5 +1,6 @@
 #include "passes/light_shape/shadow_match.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "image/parallel.h"

@@ -43,15 +43,17 @@ float ShadowNeed::at(int x, int y) const {
     mean += s[k];
   }
   mean /= static_cast<float>(masks);
-  // Places lie evenly round the centre, so u and v do not mix.
-  float u = 0, v = 0, moment = 0;
+  // Places lie evenly round the centre, so u and v do not mix; a grid's are not as many each way.
+  float u = 0, v = 0, moment = 0, momentU = 0, momentV = 0;
   for (size_t k = 1; k < masks; ++k) {
     u += s[k] * places_[k].x;
     v += s[k] * places_[k].y;
     moment += 0.5f * (places_[k].x * places_[k].x + places_[k].y * places_[k].y);
+    momentU += places_[k].x * places_[k].x;
+    momentV += places_[k].y * places_[k].y;
   }
-  u /= moment;
-  v /= moment;
+  u /= rectangle_ ? momentU : moment;
+  v /= rectangle_ ? momentV : moment;
   float off = 0;
   for (size_t k = 0; k < masks; ++k) {
     const float d = s[k] - mean - u * places_[k].x - v * places_[k].y;

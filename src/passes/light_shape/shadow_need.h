@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "passes/light_shape/light_share.h"
 #include "passes/light_shape/mask_distance.h"
 #include "passes/light_shape/shadow_taps.h"
 
@@ -13,7 +14,11 @@ class ShadowNeed {
   /// distances: of the masks, at `edges`, the pixels where masks disagree. All must outlive this.
   ShadowNeed(const ShadowTaps& taps, const Distances& distances, const PixelSet& edges,
              std::span<const V2f> places)
-      : taps_(taps), distances_(distances), edges_(edges), places_(places) {}
+      : taps_(taps),
+        distances_(distances),
+        edges_(edges),
+        places_(places),
+        rectangle_(placesOnRectangle(places)) {}
 
   /// 0 where one straight edge, moved over the light, explains all distances of a pixel where masks
   /// disagree; 1 where it is far from doing so, and where masks agree and a shadow thinner than its
@@ -28,6 +33,7 @@ class ShadowNeed {
   const Distances& distances_;
   const PixelSet& edges_;
   std::span<const V2f> places_;
+  bool rectangle_;
 };
 
 }  // namespace kagefude

@@ -17,8 +17,9 @@ struct ShadowPlaces {
   int32_t mask[3][most];
 };
 
-/// `count` (at most ShadowPlaces::most) places on a disc of `radius`, in units of place. masks: the
-/// masks' places, a disc's.
+/// `count` (at most ShadowPlaces::most) places on a disc of `radius`, in units of place, or on a
+/// rectangle of such half sides where masks lie at its corners. masks: the masks' places, a disc's
+/// or a rectangle's grid.
 ShadowPlaces placesBetween(std::span<const V2f> masks, int count, float radius);
 
 }  // namespace kagefude

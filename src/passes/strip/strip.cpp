@@ -1,6 +1,7 @@
 #include "passes/strip/strip.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <cmath>
 

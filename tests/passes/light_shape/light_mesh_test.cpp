@@ -1,6 +1,7 @@
 #include "passes/light_shape/light_mesh.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cmath>
 #include <random>

@@ -1,0 +1,101 @@
+// What stands where nothing is painted, how strokes end there, and the picture's alpha.
+#include <cstring>
+
+#include "compositor/map_frame.h"
+
+namespace kagefude {
+namespace {
+
+using testing::colourAt;
+using testing::MapFrame;
+
+class EdgesAndAlpha : public ::testing::Test {
+ protected:
+  EdgesAndAlpha() {
+    frame.addSun("Sun", {0, 0, -1});
+    frame.clearUpperHalf();
+  }
+  /// A Cryptomatte in which Thing covers `share` of row 4, and else what the index pass says.
+  void addCryptomatte(float share) {
+    frame.sidecar["objects"][0]["crypto"] = "3f800001";
+    const uint32_t bits = 0x3f800001;
+    float id;
+    std::memcpy(&id, &bits, sizeof id);
+    Floats& ids = frame.plane("CryptoObject00.r");
+    Floats& shares = frame.plane("CryptoObject00.g");
+    frame.plane("CryptoObject00.b");
+    frame.plane("CryptoObject00.a");
+    for (int y = 4; y < MapFrame::side; ++y)
+      for (int x = 0; x < MapFrame::side; ++x) {
+        ids(x, y) = id;
+        shares(x, y) = y == 4 ? share : 1.0f;
+      }
+  }
+  MapFrame frame;
+};
+
+constexpr const char* transparent = "output.background = \"transparent\"\n";
+
+TEST_F(EdgesAndAlpha, WithoutBeautyTheBackgroundIsEmpty) {
+  const FrameResult result = frame.comp("");
+  EXPECT_EQ(colourAt(result, 2, 1), V3f(0, 0, 0));
+  EXPECT_EQ(result.alpha(2, 1), 0.0f);
+  EXPECT_EQ(result.alpha(2, 6), 1.0f);
+  EXPECT_GT(colourAt(result, 2, 6).x, 0.0f);
+}
+
+TEST_F(EdgesAndAlpha, BeautyStandsBehindTheStrokes) {
+  frame.addBeauty({0.1f, 0.2f, 0.3f}, 0.25f);
+  const FrameResult result = frame.comp("");
+  EXPECT_EQ(colourAt(result, 2, 1), V3f(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(result.alpha(2, 1), 0.25f) << "alpha is associated and goes along";
+  EXPECT_EQ(result.alpha(2, 6), 1.0f) << "paint is opaque";
+  EXPECT_NE(colourAt(result, 2, 6), V3f(0.1f, 0.2f, 0.3f));
+}
+
+TEST_F(EdgesAndAlpha, BeautyWithoutAlphaIsOpaque) {
+  frame.plane("Combined.R", 0.5f);
+  frame.plane("Combined.G", 0.5f);
+  frame.plane("Combined.B", 0.5f);
+  EXPECT_EQ(frame.comp("").alpha(2, 1), 1.0f);
+}
+
+TEST_F(EdgesAndAlpha, TransparentLeavesTheBeautyOut) {
+  frame.addBeauty({0.1f, 0.2f, 0.3f}, 1.0f);
+  const FrameResult result = frame.comp(transparent);
+  EXPECT_EQ(colourAt(result, 2, 1), V3f(0, 0, 0));
+  EXPECT_EQ(result.alpha(2, 1), 0.0f);
+}
+
+TEST_F(EdgesAndAlpha, StrokesEndByTheirCryptomatteCoverage) {
+  addCryptomatte(0.25f);
+  const FrameResult result = frame.comp(transparent);
+  EXPECT_NEAR(result.alpha(2, 4), 0.25f, 1e-6f);
+  EXPECT_EQ(result.alpha(2, 5), 1.0f);
+  const FrameResult hard = frame.comp(std::string(transparent) + "output.edges = \"pixel\"\n");
+  EXPECT_EQ(hard.alpha(2, 4), 1.0f);
+  const V3f whole = colourAt(hard, 2, 4), soft = colourAt(result, 2, 4);
+  EXPECT_NEAR(soft.x, 0.25f * whole.x, 1e-6f) << "colour is associated";
+}
+
+TEST_F(EdgesAndAlpha, TheBeautyFillsWhatTheStrokesLeave) {
+  addCryptomatte(0.25f);
+  const V3f behind{0.1f, 0.2f, 0.3f};
+  frame.addBeauty(behind, 1.0f);
+  const V3f strokes = colourAt(frame.comp(transparent), 2, 4);
+  const FrameResult result = frame.comp("");
+  EXPECT_EQ(result.alpha(2, 4), 1.0f);
+  EXPECT_NEAR(colourAt(result, 2, 4).y, strokes.y + 0.75f * behind.y, 1e-6f);
+}
+
+TEST_F(EdgesAndAlpha, OutlinesAreOpaqueInTheirColour) {
+  const FrameResult result = frame.comp(std::string(transparent) +
+                                        "outline.width = 3\n[[style]]\nobject = \"Thing\"\n"
+                                        "outline_colour = [0.5, 0.25, 0]\n");
+  EXPECT_EQ(colourAt(result, 4, 4), V3f(0.5f, 0.25f, 0.0f));
+  EXPECT_EQ(result.alpha(4, 4), 1.0f);
+  EXPECT_NE(colourAt(result, 4, 7), V3f(0.5f, 0.25f, 0.0f));
+}
+
+}  // namespace
+}  // namespace kagefude
