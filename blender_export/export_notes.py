@@ -38,7 +38,8 @@ def scene_notes(scene, view_layer, options):
                      "off and blur the comp by data.Vector")
     if options.scale > 1:
         notes.append(f"frames are {render.resolution_x}x{render.resolution_y} pixels, "
-                     f"{options.scale} times the shot's own; filter them down after the comp")
+                     f"{options.scale} times the shot's own; output.scale = {options.scale} in "
+                     "the look writes the comp at the shot's size")
     return notes
 
 

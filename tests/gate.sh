@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Unit tests under the address and undefined-behaviour sanitizers with plane indices checked, the
-# batch loop under the thread sanitizer, and a minute of fuzzing for each reader.
+# Unit tests under the address and undefined-behaviour sanitizers, the batch loop under the thread
+# sanitizer, and a minute of fuzzing for each reader. By hand: clang builds for most of an hour.
 #   tests/gate.sh [SECONDS]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 .ci/ensure_packages build test gate
 export ASAN_OPTIONS=allocator_may_return_null=0:detect_stack_use_after_return=1
 export UBSAN_OPTIONS=print_stacktrace=1
-export TSAN_OPTIONS=halt_on_error=1:suppressions=$PWD/tests/tsan.supp
+# Tests that fork would wait for ever for children that the sanitizer ends.
+export TSAN_OPTIONS=die_after_fork=0:halt_on_error=1:suppressions=$PWD/tests/tsan.supp
 
 echo "-- thread sanitizer: batch tests"
 [ -f build/tsan/build.ninja ] || cmake --preset tsan >/dev/null

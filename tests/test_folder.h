@@ -14,7 +14,7 @@ namespace kagefude {
 class TestFolder {
  public:
   TestFolder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     path_ = std::filesystem::temp_directory_path() /
             (std::string("kagefude_") + info->test_suite_name() + "_" + info->name() + "_" +
              std::to_string(getpid()));

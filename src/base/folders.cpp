@@ -18,13 +18,15 @@ void flushFolder(const fs::path& folder) {
   close(descriptor);
 }
 
-void makeFolders(const fs::path& folder) {
+void makeFolders(const fs::path& folder, const FlushFolder& flush) {
   std::error_code failed;
   if (folder.empty() || fs::is_directory(folder, failed)) return;
   const fs::path plain = folder.has_filename() ? folder : folder.parent_path();
-  if (plain.has_parent_path() && plain.parent_path() != plain) makeFolders(plain.parent_path());
-  // Another task may make it at the same time: what counts is that it is there.
-  if (fs::create_directory(plain, failed)) flushFolder(plain.parent_path());
+  if (plain.has_parent_path() && plain.parent_path() != plain)
+    makeFolders(plain.parent_path(), flush);
+  // Another task may make it at the same time: what counts is that it is there, and on the disk.
+  fs::create_directory(plain, failed);
+  flush(plain.parent_path());
   if (!fs::is_directory(plain))
     throw OutputError(fmt::format("cannot make the folder {}: {}", folder.string(),
                                   failed ? failed.message() : "a file has its name"));

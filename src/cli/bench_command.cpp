@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/output_name.h"
+#include "base/printed_json.h"
 #include "cli/commands.h"
 #include "frame/sample_frame.h"
 #include "sequence/bench_frame.h"
@@ -87,7 +88,7 @@ void printJson(const FrameBench& bench, const BenchOptions& options, int threads
       {"height", bench.height},      {"channels", bench.channels},
       {"rounds", options.rounds},    {"stages", stages},
       {"seconds", total(bench)},     {"peak_bytes", bench.peakBytes}};
-  out << all.dump(2) << "\n";
+  out << printedJson(all) << "\n";
 }
 
 void printTable(const FrameBench& bench, const BenchOptions& options, int threads,

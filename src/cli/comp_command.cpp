@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -168,12 +169,17 @@ class RunReport {
 };
 
 /// One line a kind of warning and a run: those that differ in numbers only, such as the frame's in
-/// a file name, are one kind. The report has them all.
+/// a file name, or in what stands in parentheses, such as the objects that a frame shows, are one
+/// kind. The report has them all.
 class SaidWarnings {
  public:
   bool isNew(const std::string& warning) {
     std::string kind;
+    int depth = 0;
     for (const char c : warning) {
+      if (c == '(') ++depth;
+      if (c == ')') depth = std::max(depth - 1, 0);
+      if (depth > 0) continue;
       const bool digit = c >= '0' && c <= '9';
       if (!digit) kind += c;
       if (digit && !kind.ends_with('#')) kind += '#';

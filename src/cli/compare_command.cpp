@@ -5,12 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "base/error.h"
-#include "base/nearest_name.h"
 #include "base/output_name.h"
+#include "base/printed_json.h"
 #include "cli/commands.h"
-#include "exr/read_channels.h"
 #include "exr/write_image.h"
+#include "frame/compared_planes.h"
 #include "passes/measure/compare_planes.h"
 
 namespace kagefude {
@@ -23,26 +22,10 @@ struct CompareOptions {
   bool json = false;
 };
 
-/// The channel of that name, or the only channel of the layer of that name.
-std::string findChannel(const ImageFile& image, const std::filesystem::path& path,
-                        const std::string& name) {
-  if (image.findChannel(name)) return name;
-  std::vector<std::string> inLayer;
-  const std::vector<std::string> all = image.channelNames();
-  for (const std::string& channel : all)
-    if (channel.rfind(name + ".", 0) == 0) inLayer.push_back(channel);
-  if (inLayer.size() == 1) return inLayer.front();
-  throw InputError(fmt::format("{} has no channel {} (channels: {}){}", path.string(), name,
-                               listNames(inLayer.empty() ? all : inLayer), didYouMean(name, all)));
-}
-
-Floats readPlane(const std::string& path, const std::string& channel) {
-  const ImageFile image = openImage(path);
-  return std::move(readFloats(image, std::vector{findChannel(image, path, channel)}).at(0));
-}
-
-nlohmann::ordered_json toJson(const PlaneDifference& d) {
+nlohmann::ordered_json toJson(const PlaneDifference& d, const ComparedPlanes& planes) {
   return {{"pixels", d.pixels},
+          {"background", planes.background},
+          {"outside", planes.outside},
           {"rmse", d.rmse},
           {"maximum", d.maximum},
           {"penumbra",
@@ -55,8 +38,15 @@ nlohmann::ordered_json toJson(const PlaneDifference& d) {
             {"truth_noise", d.truthNoise}}}};
 }
 
-void print(std::ostream& out, const PlaneDifference& d, int truthSamples) {
+void print(std::ostream& out, const PlaneDifference& d, const ComparedPlanes& planes,
+           int truthSamples) {
   out << fmt::format("all {} pixels: RMSE {:.4f}, maximum {:.4f}\n", d.pixels, d.rmse, d.maximum);
+  if (planes.background > 0)
+    out << fmt::format("not counted: {} pixels of background, where no object is\n",
+                       planes.background);
+  if (planes.outside > 0)
+    out << fmt::format("not counted: {} pixels that only one of the files covers\n",
+                       planes.outside);
   if (d.penumbraPixels == 0) {
     out << "no penumbra (truth between 0.02 and 0.98)\n";
     return;
@@ -72,21 +62,20 @@ void print(std::ostream& out, const PlaneDifference& d, int truthSamples) {
 
 void compare(const CompareOptions& options, Console& console) {
   if (!options.picture.empty()) requireSuffix(options.picture, ".png", "--picture");
-  const Floats value = readPlane(options.file, options.channel);
-  const Floats truth = readPlane(
-      options.truthFile, options.truthChannel.empty() ? options.channel : options.truthChannel);
-  const Floats where =
-      options.where.empty() ? Floats() : readPlane(options.truthFile, options.where);
-  const View<const float> chosen = where.empty() ? View<const float>{} : where.view();
-  const PlaneDifference difference = comparePlanes(value, truth, chosen, options.truthSamples);
+  const ComparedPlanes planes = readCompared(
+      openImage(options.file), options.channel, openImage(options.truthFile),
+      options.truthChannel.empty() ? options.channel : options.truthChannel, options.where);
+  const View<const float> chosen = planes.where.empty() ? View<const float>{} : planes.where.view();
+  const PlaneDifference difference =
+      comparePlanes(planes.value, planes.truth, chosen, options.truthSamples);
   if (!options.picture.empty()) {
-    const Floats picture = differencePicture(value, truth, chosen, options.gain);
+    const Floats picture = differencePicture(planes.value, planes.truth, chosen, options.gain);
     writePng(options.picture, picture, picture, picture, {}, 8);
   }
   if (options.json)
-    console.results(toJson(difference).dump(2));
+    console.results(printedJson(toJson(difference, planes)));
   else
-    print(console.out, difference, options.truthSamples);
+    print(console.out, difference, planes, options.truthSamples);
 }
 
 }  // namespace
@@ -102,7 +91,8 @@ void addCompareCommand(CLI::App& app, Console& console, int&) {
   command->add_option("--against", options->truthChannel,
                       "channel or layer of the truth, such as truth.Key.V (the same name)");
   command->add_option("--where", options->where,
-                      "channel beside the truth; only pixels where it is not 0 count");
+                      "channel beside the truth; only pixels where it is not 0 count (where either "
+                      "file's Normal shows an object)");
   command
       ->add_option("--truth-samples", options->truthSamples,
                    "samples a pixel of the truth, to report its own noise")

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "base/nearest_name.h"
+#include "base/printed_json.h"
 #include "cli/commands.h"
 #include "frame/inspect_frame.h"
 #include "look/look.h"
@@ -109,7 +110,7 @@ void addInspectCommand(CLI::App& app, Console& console, int&) {
     const Look look = readLook(options->look, {});
     const Inspection found = inspectFrame(options->input, look.frame);
     if (options->json)
-      console.results(toJson(found).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+      console.results(printedJson(toJson(found)));
     else
       printInspection(console, found);
   });

@@ -8,9 +8,11 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/printed_json.h"
 #include "cli/commands.h"
-#include "look/pass_list.h"
+#include "look/look_sections.h"
 #include "look/read_section.h"
+#include "passes/strip/strip_paint.h"
 
 namespace kagefude {
 namespace {
@@ -81,13 +83,16 @@ Json toJson(const ParameterTable& table) {
           {"parameters", std::move(parameters)}};
 }
 
+/// The look's tables, or the one of that name, which may be `strip make`'s own.
 std::vector<const ParameterTable*> chosenTables(const std::string& name) {
   std::vector<const ParameterTable*> chosen;
   std::vector<std::string> names;
-  for (const ParameterTable* table : allTables()) {
-    names.emplace_back(table->pass);
-    if (name.empty() || name == table->pass) chosen.push_back(table);
+  for (const LookSection& section : lookSections) {
+    names.emplace_back(section.table->pass);
+    if (name.empty() || name == section.table->pass) chosen.push_back(section.table);
   }
+  names.emplace_back(stripTable.pass);
+  if (name == stripTable.pass) chosen = {&stripTable};
   if (chosen.empty())
     throw UsageError(fmt::format("there is no pass {}{}; there are {}", name,
                                  didYouMean(name, names), listNames(names, names.size())));
@@ -102,7 +107,7 @@ void printPasses(std::ostream& out, const std::string& name, bool json) {
     else
       printTable(out, *table);
   }
-  if (json) out << list.dump(2) << "\n";
+  if (json) out << printedJson(list) << "\n";
 }
 
 }  // namespace

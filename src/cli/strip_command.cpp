@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "base/output_name.h"
+#include "base/printed_json.h"
 #include "cli/commands.h"
 #include "exr/write_image.h"
 #include "look/override.h"
@@ -65,7 +66,7 @@ int checkStripFile(const std::string& file, bool json, Console& console) {
   const StripPicture picture = readStrip(file);
   const StripReport report = checkStrip(picture.red, picture.green, picture.blue);
   if (json)
-    console.results(toJson(report).dump(2));
+    console.results(printedJson(toJson(report)));
   else
     printReport(file, report, console);
   if (report.problems.empty()) return allGood;

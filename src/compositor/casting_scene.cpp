@@ -22,7 +22,7 @@ CastingScene readCastingScene(const FramePlan& plan) {
       Window{data.x - display.x, data.y - display.y, data.width, data.height});
   std::map<std::string, uint32_t> ids;
   for (const auto& [id, name] : plan.objectNames) ids[name] = id;
-  FrameCasters casters = readCasters(plan.sidecar->path, ids);
+  FrameCasters casters = readCasters(*plan.sidecar, ids);
   scene.meshes = std::move(casters.meshes);
   scene.warnings = std::move(casters.warnings);
   scene.set = CasterSet(scene.meshes);

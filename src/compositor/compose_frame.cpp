@@ -8,6 +8,7 @@
 #include "compositor/frame_tone.h"
 #include "compositor/output_layers.h"
 #include "compositor/paint_styles.h"
+#include "compositor/scale_down.h"
 #include "compositor/styled_surfaces.h"
 #include "image/parallel.h"
 #include "passes/tone/surfaces.h"
@@ -78,10 +79,8 @@ void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageS
 void noteBadPixels(const FramePlanes& planes, std::vector<std::string>& warnings) {
   const auto note = [&](size_t count, const char* what, const char* taken) {
     if (count)
-      warnings.push_back(fmt::format("{} {} NaN or Inf in {} and {} taken as {}",
-                                     count == 1 ? "1 pixel" : fmt::format("{} pixels", count),
-                                     count == 1 ? "holds" : "hold", what, count == 1 ? "is" : "are",
-                                     taken));
+      warnings.push_back(fmt::format("NaN or Inf in {} is taken as {} ({} pixel{})", what, taken,
+                                     count, count == 1 ? "" : "s"));
   };
   note(planes.badPixels, "Position or Normal", "background");
   note(planes.badBeauty, "the beauty", "black");
@@ -91,8 +90,9 @@ void noteBadPixels(const FramePlanes& planes, std::vector<std::string>& warnings
 
 }  // namespace
 
-FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePlan& plan,
+FrameResult composeFrame(const Look& asked, const StripSet& strips, const FramePlan& plan,
                          FramePlanes planes, StageSink* sink, StageClock* clock) {
+  const Look look = inRenderedPixels(asked);
   FrameResult result;
   result.warnings = plan.warnings;
   result.warnings.insert(result.warnings.end(), planes.warnings.begin(), planes.warnings.end());
@@ -131,6 +131,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   result.colour.z = std::move(brush.b);
   result.alpha = std::move(brush.a);
   if (sink) sink->picture("result", result.colour);
+  const Labels own = look.output.scale == 1 ? Labels() : surfaces.clone();
   LayerSources sources{planes};
   sources.tone = std::move(tone);
   sources.outline = std::move(outline);
@@ -138,6 +139,7 @@ FrameResult composeFrame(const Look& look, const StripSet& strips, const FramePl
   sources.repeat = std::move(brush.repeat);
   sources.surfaces = std::move(surfaces);
   takeLayers(look, LayerStage::frame, sources, result);
+  scaleDown(look, plan, own, result);
   return result;
 }
 

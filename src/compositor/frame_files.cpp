@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "frame/casters.h"
 #include "frame/cryptomatte.h"
 
 namespace kagefude {
@@ -22,8 +21,7 @@ std::vector<std::filesystem::path> filesBeside(const FramePlan& plan) {
     if (!light.blob.empty()) files.insert(light.blob);
   }
   if (plan.hasCasters && std::any_of(plan.lights.begin(), plan.lights.end(), wantsCasters))
-    for (const CasterEntry& entry : readCasterEntries(plan.sidecar->path))
-      files.insert(plan.sidecar->path.parent_path() / entry.file);
+    for (const SidecarCaster& entry : plan.sidecar->casters) files.insert(entry.file);
   for (const Cryptomatte& matte : listCryptomattes(plan.image))
     if (const auto manifest = manifestFile(plan.image, matte)) files.insert(*manifest);
   return {files.begin(), files.end()};

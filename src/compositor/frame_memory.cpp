@@ -6,7 +6,6 @@
 #include <map>
 
 #include "compositor/output_layers.h"
-#include "frame/casters.h"
 
 namespace kagefude {
 namespace {
@@ -21,6 +20,7 @@ constexpr size_t asHalf = 8;
 constexpr size_t ofIds = 4;
 constexpr size_t ofReadingIds = 16;  // two ranks of a Cryptomatte
 constexpr size_t ofEdgeRanks = 32;   // four ranks of a Cryptomatte
+constexpr size_t ofRanks = 40;       // a Cryptomatte that is ranked anew
 
 size_t inputBytes(const FramePlan& plan) {
   size_t bytes = 0;
@@ -65,14 +65,12 @@ size_t casterBytes(const FramePlan& plan) {
   };
   if (!plan.hasCasters || std::none_of(plan.lights.begin(), plan.lights.end(), wantsCasters))
     return 0;
-  std::map<std::string, size_t> sizes;
+  std::map<std::filesystem::path, size_t> sizes;
   size_t bytes = 0;
-  for (const CasterEntry& entry : readCasterEntries(plan.sidecar->path)) {
+  for (const SidecarCaster& entry : plan.sidecar->casters) {
     const auto [place, isNew] = sizes.try_emplace(entry.file);
     std::error_code missing;
-    const auto size =
-        isNew ? std::filesystem::file_size(plan.sidecar->path.parent_path() / entry.file, missing)
-              : 0;
+    const auto size = isNew ? std::filesystem::file_size(entry.file, missing) : 0;
     if (isNew && !missing) place->second = ofMeshFile * size;
     bytes += place->second;
   }
@@ -103,9 +101,12 @@ size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
   const size_t passed = look.output.passthrough ? input : 0;
 
   const size_t reading = floats + 4 * masks + ids + ofReadingIds + edges;
+  const auto area = static_cast<size_t>(look.output.scale) * static_cast<size_t>(look.output.scale);
+  const size_t scaling = area > 1 ? ofIds + (ofResult + layers + ofIds) / area : 0;
   const size_t composing =
-      floats + masks + ids + ofPasses + ofResult + layers + edges + tones + methods;
-  const size_t writing = ofResult + asHalf + layers + passed + (preview ? ofPreview : 0);
+      floats + masks + ids + ofPasses + ofResult + layers + edges + tones + methods + scaling;
+  const size_t written = (ofResult + asHalf + layers + (preview ? ofPreview : 0)) / area;
+  const size_t writing = written + passed + (area > 1 ? passed / area + ofRanks : 0);
   const size_t pixels =
       static_cast<size_t>(plan.image.width) * static_cast<size_t>(plan.image.height);
   return (std::max({reading, composing, writing}) + ofChange) * pixels + depthMapBytes(plan) +

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "compositor/output_layers.h"
-#include "frame/casters.h"
+#include "compositor/scale_down.h"
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
 #include "frame/lossy_passes.h"
@@ -182,8 +182,9 @@ const SidecarObject* FramePlan::findObject(uint32_t id) const {
   return name.empty() ? nullptr : sidecar->findObject(name);
 }
 
-FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame,
+FramePlan planFrame(const Look& asked, const std::filesystem::path& path, int frame,
                     const std::string& view) {
+  const Look look = inRenderedPixels(asked);
   FramePlan plan;
   plan.frame = frame;
   plan.image = openFrame(path, view.empty() ? look.frame.view : view);
@@ -193,6 +194,7 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
                     "view that frame.view asks for",
                     look.frame.view));
   plan.sidecar = findSidecar(path);
+  checkScale(look, plan);
   for (const LossyPass& lossy : lossyPasses(plan.image))
     plan.warnings.push_back(fmt::format("{}; {}", lossy.what, lossy.remedy));
   if (plan.sidecar && plan.image.pixelAspect == 1.0f)
@@ -214,7 +216,7 @@ FramePlan planFrame(const Look& look, const std::filesystem::path& path, int fra
   nameObjectsFromLook(look, plan);
   planCoverage(look, names, plan);
   if (wantsOutlines(look) && !plan.sidecar) plan.depth = findAov(plan.image, names, AovKind::depth);
-  plan.hasCasters = plan.sidecar && !readCasterEntries(plan.sidecar->path).empty();
+  plan.hasCasters = plan.sidecar && !plan.sidecar->casters.empty();
   plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame,
                              plan.hasCasters);
   if (leadMayChange(look, plan))

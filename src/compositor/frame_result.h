@@ -19,12 +19,14 @@ struct NamedPlane {
   LayerPlane plane;
 };
 
-/// A composited frame in the working space, alpha associated, one value a pixel of the data window.
+/// A composited frame in the working space, alpha associated, one value a pixel of the data window
+/// that is written (see scale_down.h).
 struct FrameResult {
   Vec3Plane colour;
   Floats alpha;
   std::vector<NamedPlane> layers;
   std::vector<bool> fittingStyles;  ///< each style of the look: whether it fits something seen
+  Labels standing;  ///< Downscale::standing of the surfaces; empty at output.scale = 1
   std::vector<std::string> warnings;
 };
 

@@ -12,10 +12,10 @@ struct FrameLight;
 struct LayerSources {
   const FramePlanes& planes;
   const FrameLight* light = nullptr;  ///< stage light: the one at hand, as are the next two
-  Floats visibility;
-  Floats confidence;  ///< empty: 1 everywhere
-  Floats tone, outline, angle, repeat;
-  Labels surfaces;
+  Floats visibility{};
+  Floats confidence{};  ///< empty: 1 everywhere
+  Floats tone{}, outline{}, angle{}, repeat{};
+  Labels surfaces{};
 };
 
 /// Whether the look asks for a layer.

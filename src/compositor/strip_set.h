@@ -18,6 +18,7 @@ class StripSet {
   /// Loads every style's strip. Throws InputError when a file cannot be used, LookError when a
   /// built-in name is unknown. `colour` must outlive the set.
   StripSet(const Look& look, const Colour& colour);
+  StripSet(const Look& look, Colour&& colour) = delete;
 
   /// The index of a style's strip in strips(); "builtin:neutral" for surfaces without a style. That
   /// one is painted when it is first asked for: many looks leave no surface to it.

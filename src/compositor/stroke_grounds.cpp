@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/nearest_name.h"
 #include "image/parallel.h"
 
 namespace kagefude {
@@ -73,28 +74,18 @@ StrokeGrounds::StrokeGrounds(const FramePlan& plan, const FramePlanes& planes,
     }
 }
 
-bool StrokeGrounds::choose(size_t number, uint32_t object, BrushParams& params,
-                           std::vector<std::string>& warnings) {
+bool StrokeGrounds::choose(size_t number, uint32_t object, BrushParams& params) {
   Surface& surface = surfaces_[number - 1];
   const bool held = params.mapping == BrushParams::Mapping::held;
   if (params.ground == Ground::object) return false;
   if (params.ground == Ground::uv && !held) return false;
   if (params.ground == Ground::rest && (!plan_.rest || (plan_.restInWorld && !held))) return false;
   const bool uv = params.ground == Ground::uv;
-  const char* const what = uv ? "UVs" : "rest positions";
   const size_t with = uv ? surface.withUv : surface.withRest;
-  const auto warn = [&](const char* how, const char* where) {
-    warnings.push_back(fmt::format(
-        "object {} holds no {}{} (they are 0, not finite or without alpha), so its strokes{} are "
-        "held to the object; render them for it, or set brush.ground = \"object\"",
-        nameOf(plan_, object), what, how, where));
-  };
-  if (with == 0) {
-    warn("", "");
-    return false;
-  }
-  if (static_cast<double>(surface.pixels - with) > worthAWord * static_cast<double>(surface.pixels))
-    warn(" in some of its pixels", " there");
+  const auto without = static_cast<double>(surface.pixels - with);
+  if (with == 0 || without > worthAWord * static_cast<double>(surface.pixels))
+    missing_[with > 0][uv].insert(nameOf(plan_, object));
+  if (with == 0) return false;
   surface.ground = params.ground;
   surface.uvSize = params.uvSize;
   const SidecarObject* described = plan_.findObject(object);
@@ -148,6 +139,20 @@ Vec3Plane StrokeGrounds::places(const FramePlanes& planes, View<const uint16_t> 
       }
   });
   return result;
+}
+
+void StrokeGrounds::noteMissing(std::vector<std::string>& warnings) const {
+  for (const bool partly : {false, true})
+    for (const bool uv : {false, true}) {
+      const std::set<std::string>& names = missing_[partly][uv];
+      if (names.empty()) continue;
+      const char* const what = uv ? "UVs" : "rest positions";
+      warnings.push_back(fmt::format(
+          "objects hold no {}{} ({}): they are 0, not finite or without alpha, so strokes{} are "
+          "held to the object; render them, or set brush.ground = \"object\"",
+          what, partly ? " in some of their pixels" : "", listNames({names.begin(), names.end()}),
+          partly ? " there" : ""));
+    }
 }
 
 }  // namespace kagefude

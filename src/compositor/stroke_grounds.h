@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,10 @@ class StrokeGrounds {
 
   /// Whether surface `number`, of that object, is held to its rest or its UVs; false: to the
   /// object's own axes. A surface without any rest positions, where the frame has them, is held so
-  /// too and named in `warnings`; so is one that misses them in part: there, positions stand in.
-  /// `params` are its brush's: those whose reference points cannot share the places (UVs, a rest in
-  /// world space, instances) get one.
-  bool choose(size_t number, uint32_t object, BrushParams& params,
-              std::vector<std::string>& warnings);
+  /// too; one that misses them in part has positions there (see noteMissing). `params` are its
+  /// brush's: those whose reference points cannot share the places (UVs, a rest in world space,
+  /// instances) get one.
+  bool choose(size_t number, uint32_t object, BrushParams& params);
 
   /// Takes what turns a surface's passes into places: rest positions go through the object's matrix
   /// of this frame without its turn and move, so they have its size in the world; those in world
@@ -33,6 +33,10 @@ class StrokeGrounds {
 
   /// The places of all surfaces; empty where none lies at rest.
   Vec3Plane places(const FramePlanes& planes, View<const uint16_t> index) const;
+
+  /// Says of which objects `choose` found no rest positions or UVs, and of which only some: one
+  /// line for each kind.
+  void noteMissing(std::vector<std::string>& warnings) const;
 
  private:
   struct Surface {
@@ -47,6 +51,8 @@ class StrokeGrounds {
 
   const FramePlan& plan_;
   std::vector<Surface> surfaces_;
+  /// Names of objects without places [0: at all, 1: in part] of [0: rest, 1: UV].
+  std::set<std::string> missing_[2][2];
 };
 
 }  // namespace kagefude

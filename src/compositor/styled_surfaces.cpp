@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <unordered_map>
 
 #include "base/error.h"
@@ -178,7 +179,7 @@ void takeBounds(const SidecarObject& object, bool atRest, BrushSubject& subject)
 
 BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const FramePlan& plan,
                        const FrameLight& light, const Surface& surface, const VisibleBounds& seen,
-                       bool atRest, std::vector<std::string>& warnings) {
+                       bool atRest, std::set<std::string>& unbounded) {
   const StyleParams& style = styled.style;
   BrushSubject subject;
   subject.sceneRadius = light.subjectRadius;
@@ -193,13 +194,10 @@ BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const 
     subject.boundsMin = bounds.low;
     subject.boundsMax = bounds.high;
     subject.hasBounds = true;
-    if (movesWithView(styled, scene))
-      warnings.push_back(fmt::format(
-          "object {} has no bounds in a sidecar, so its strokes are placed and sized by what a "
-          "frame shows of it and will change with the view; give scene.centre and scene.radius, "
-          "or style.reference and brush.mapping_distance",
-          plan.objectName(surface.object).empty() ? fmt::format("{:08x}", surface.object)
-                                                  : plan.objectName(surface.object)));
+    if (movesWithView(styled, scene)) {
+      const std::string name = plan.objectName(surface.object);
+      unbounded.insert(name.empty() ? fmt::format("{:08x}", surface.object) : name);
+    }
   }
   if (object)
     for (const V3d& point : object->referencePoints) subject.referencePoints.push_back(V3f(point));
@@ -213,6 +211,16 @@ BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const 
   return subject;
 }
 
+/// One line for all of them.
+void noteUnbounded(const std::set<std::string>& objects, std::vector<std::string>& warnings) {
+  if (objects.empty()) return;
+  warnings.push_back(fmt::format(
+      "objects have no bounds in a sidecar ({}), so their strokes are placed and sized by what a "
+      "frame shows of them and will change with the view; give scene.centre and scene.radius, or "
+      "style.reference and brush.mapping_distance",
+      listNames({objects.begin(), objects.end()})));
+}
+
 }  // namespace
 
 StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const FramePlan& plan,
@@ -221,6 +229,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
   const std::vector<VisibleBounds> seen = visibleBounds(look, plan, index, planes.position);
   StyledSurfaces result;
   const StyleLook fallback{{}, look.passes};
+  std::set<std::string> unbounded;
   StrokeGrounds grounds(plan, planes, index.plane, index.surfaces.size());
   result.fitting.resize(look.styles.size());
   for (const Surface& surface : index.surfaces)
@@ -232,10 +241,10 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     const FrameLight& light = lightFor(plan, style.style);
     const uint32_t object = index.surfaces[number - 1].object;
     BrushParams brush = style.passes.brush;
-    const bool atRest = grounds.choose(number, object, brush, warnings);
+    const bool atRest = grounds.choose(number, object, brush);
     BrushSubject subject =
         subjectOf(style, look.scene, plan, light, index.surfaces[number - 1],
-                  seen.empty() ? VisibleBounds{} : seen[number - 1], atRest, warnings);
+                  seen.empty() ? VisibleBounds{} : seen[number - 1], atRest, unbounded);
     subject.strip = strips.indexOf(style.style.strip);
     result.anchors.push_back(makeBrushAnchor(subject, light.light, brush));
     result.anchors.back().atRest = atRest;
@@ -248,6 +257,8 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     result.outlines.push_back({colour, style.passes.outline});
   }
   result.rest = grounds.places(planes, index.plane);
+  noteUnbounded(unbounded, warnings);
+  grounds.noteMissing(warnings);
   result.anchorIndex = std::move(index.plane);
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compositor/scale_down.h"
 #include "exr/read_channels.h"
 #include "exr/write_image.h"
 
@@ -26,8 +27,10 @@ void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& resu
                 const std::filesystem::path& path,
                 const std::map<std::string, std::string>& attributes) {
   OutputImage image;
-  image.dataWindow = plan.image.dataWindow;
-  image.displayWindow = plan.image.displayWindow;
+  const int scale = look.output.scale;
+  const Downscale squares(plan.image.dataWindow, scale);
+  image.dataWindow = squares.window();
+  image.displayWindow = Downscale(plan.image.displayWindow, scale).window();
   image.pixelAspect = plan.image.pixelAspect;
   image.compression = look.output.compression;
   image.source = &plan.image;
@@ -45,6 +48,7 @@ void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& resu
   std::vector<RawPlane> others;
   if (look.output.passthrough) {
     others = readOthers(plan, image.channels);
+    if (scale > 1) scaleDown(squares, scale, result.standing, plan, others);
     for (const RawPlane& plane : others) image.channels.push_back(rawChannel(plane));
   }
   writeExr(path, image);

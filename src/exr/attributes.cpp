@@ -72,7 +72,7 @@ std::optional<ExrValue> convert(const Imf::Attribute& a) {
 std::optional<std::vector<ExrAttribute>> fastAttributes(const Imf::Header& header) {
   std::vector<ExrAttribute> attributes;
   for (auto a = header.begin(); a != header.end(); ++a) {
-    if (isReservedAttribute(a.name())) continue;
+    if (isFromImage(a.name())) continue;
     auto value = convert(a.attribute());
     if (!value) return std::nullopt;
     attributes.push_back({a.name(), *std::move(value)});

@@ -7,31 +7,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <string_view>
+
+#include "exr/reserved_attributes.h"
 
 namespace kagefude::detail {
 namespace {
 
-// Attributes that say how the source was stored rather than what it shows.
-const std::set<std::string_view> storageAttributes = {"channels",
-                                                      "compression",
-                                                      "dataWindow",
-                                                      "displayWindow",
-                                                      "lineOrder",
-                                                      "tiles",
-                                                      "type",
-                                                      "chunkCount",
-                                                      "name",
-                                                      "version",
-                                                      "multiView",
-                                                      "preview",
-                                                      "pixelAspectRatio",
-                                                      "envmap",
-                                                      "maxSamplesPerPixel",
-                                                      "deepImageState",
-                                                      "dwaCompressionLevel"};
 constexpr size_t longestName = 255;
 
 class TextStream : public Imf::OStream {
@@ -59,7 +42,7 @@ std::string bytesOf(const Imf::Attribute& attribute) {
 
 void addPart(const Imf::Header& from, const std::string& part, Imf::Header& header) {
   for (auto a = from.begin(); a != from.end(); ++a) {
-    if (storageAttributes.contains(a.name())) continue;
+    if (isOfStorage(a.name())) continue;
     const auto known = header.find(a.name());
     if (known == header.end()) {
       header.insert(a.name(), a.attribute());
@@ -77,7 +60,7 @@ void addPart(const Imf::Header& from, const std::string& part, Imf::Header& head
 void carryAttributes(const ImageFile& source, bool allParts, Imf::Header& header) {
   const Imf::Header& first = source.leadingHeader();
   for (auto a = first.begin(); a != first.end(); ++a)
-    if (!storageAttributes.contains(a.name())) header.insert(a.name(), a.attribute());
+    if (!isOfStorage(a.name())) header.insert(a.name(), a.attribute());
   for (size_t i = 1; allParts && i < source.ownParts.size(); ++i) {
     const auto part = static_cast<size_t>(source.ownParts[i]);
     const std::string& name = source.parts[part].name;

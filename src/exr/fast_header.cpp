@@ -80,7 +80,7 @@ struct SetAttribute {
   }
 };
 
-exr_attr_box2i_t boxOf(const Window& window) {
+exr_attr_box2i_t attributeBox(const Window& window) {
   exr_attr_box2i_t box;
   box.min.x = window.x;
   box.min.y = window.y;
@@ -186,7 +186,9 @@ void checkExrImage(const std::string& path, const ExrImage& image) {
                     "can hold",
                     path, image.channels.size(), image.data.width));
   }
-  std::set<std::string> attributes(reservedAttributes.begin(), reservedAttributes.end());
+  std::set<std::string> attributes;
+  for (const ReservedAttribute& reserved : reservedAttributes)
+    if (reserved.fromImage) attributes.emplace(reserved.name);
   for (const ExrAttribute& attribute : image.attributes) {
     checkName(path, "attribute", attribute.name, attributes);
   }
@@ -197,8 +199,8 @@ void writeExrHeader(const std::string& path, _priv_exr_context_t* context, const
   if (hasLongName(image)) require(exr_set_longname_support(context, 1), path, "long names");
   int part = 0;
   require(exr_add_part(context, nullptr, EXR_STORAGE_SCANLINE, &part), path, "the header");
-  const exr_attr_box2i_t data = boxOf(image.data);
-  const exr_attr_box2i_t display = boxOf(image.display);
+  const exr_attr_box2i_t data = attributeBox(image.data);
+  const exr_attr_box2i_t display = attributeBox(image.display);
   exr_attr_v2f_t center;
   std::copy(image.screenWindowCenter.begin(), image.screenWindowCenter.end(), center.arr);
   require(exr_initialize_required_attr(context, part, &display, &data, image.pixelAspect, &center,

@@ -47,7 +47,7 @@ std::optional<ExrType> fastType(exr_pixel_type_t type) {
 }
 
 /// The box as a window; nothing if it is empty or its size overflows an int.
-std::optional<Window> windowOf(const exr_attr_box2i_t& box) {
+std::optional<Window> usableWindow(const exr_attr_box2i_t& box) {
   const int64_t width = static_cast<int64_t>(box.max.x) - box.min.x + 1;
   const int64_t height = static_cast<int64_t>(box.max.y) - box.min.y + 1;
   if (width < 1 || height < 1 || width > INT32_MAX || height > INT32_MAX) return std::nullopt;
@@ -82,8 +82,8 @@ bool readHeader(exr_const_context_t context, int index, ExrPart& part) {
     return false;
   }
   const auto codec = fastCompression(compression);
-  const auto dataWindow = windowOf(data);
-  const auto displayWindow = windowOf(display);
+  const auto dataWindow = usableWindow(data);
+  const auto displayWindow = usableWindow(display);
   if (!codec || !dataWindow || !displayWindow) return false;
   part.compression = *codec;
   part.data = *dataWindow;

@@ -28,7 +28,8 @@ std::string nameOf(Imf::Compression compression) {
   return std::string(index < compressionNames.size() ? compressionNames[index] : "unknown");
 }
 
-Window windowOf(const Imath::Box2i& box) {
+/// Sides beyond an int become the largest int, turned windows empty.
+Window clampedWindow(const Imath::Box2i& box) {
   const int64_t width = int64_t{box.max.x} - box.min.x + 1;
   const int64_t height = int64_t{box.max.y} - box.min.y + 1;
   constexpr int64_t most = INT32_MAX;
@@ -81,7 +82,7 @@ Part describePart(const std::filesystem::path& path, const Imf::Header& header,
   Part part;
   part.name = header.hasName() ? header.name() : "";
   part.view = header.hasView() ? header.view() : "";
-  part.dataWindow = windowOf(header.dataWindow());
+  part.dataWindow = clampedWindow(header.dataWindow());
   part.compression = nameOf(header.compression());
   part.tiled = header.hasTileDescription();
   const bool loss = part.compression.starts_with("dwa");
@@ -210,7 +211,7 @@ void describeOwnParts(ImageFile& file) {
   file.width = file.dataWindow.width;
   file.height = file.dataWindow.height;
   file.compression = first.compression;
-  file.displayWindow = windowOf(file.leadingHeader().displayWindow());
+  file.displayWindow = clampedWindow(file.leadingHeader().displayWindow());
   file.pixelAspect = file.leadingHeader().pixelAspectRatio();
 }
 

@@ -35,7 +35,7 @@ const Channel& requireChannel(const ImageFile& file, const std::string& name) {
       fmt::format("{} has no channel {}{}", file.path.string(), name, didYouMean(name, names)));
 }
 
-const Window& windowOf(const ImageFile& file, const Channel& channel) {
+const Window& partWindow(const ImageFile& file, const Channel& channel) {
   return file.parts[static_cast<size_t>(channel.part)].dataWindow;
 }
 
@@ -49,7 +49,7 @@ Imf::FrameBuffer frameBufferOf(const ImageFile& file, int part,
   Imf::FrameBuffer buffer;
   for (const PlaneTarget& target : targets) {
     if (target.channel->part != part) continue;
-    const Window& window = windowOf(file, *target.channel);
+    const Window& window = partWindow(file, *target.channel);
     const size_t bytes = target.type == PixelType::half ? 2 : 4;
     buffer.insert(target.channel->nameInPart,
                   Imf::Slice::Make(fileType(target.type), target.pixels,
@@ -134,7 +134,7 @@ size_t bytesOf(PixelType type) { return type == PixelType::half ? 2 : 4; }
 
 // Lays a part's own window into a plane of the file's, with zeros around it.
 void placePlane(const ImageFile& file, const PlaneTarget& own, const PlaneTarget& whole) {
-  const Window& from = windowOf(file, *own.channel);
+  const Window& from = partWindow(file, *own.channel);
   const Window& to = file.dataWindow;
   const size_t bytes = bytesOf(own.type);
   const auto* source = static_cast<const std::byte*>(own.pixels);
@@ -153,7 +153,7 @@ void readJoined(const ImageFile& file, std::span<const PlaneTarget> targets) {
   std::vector<PlaneTarget> own(targets.begin(), targets.end());
   std::vector<std::pair<size_t, std::vector<std::byte>>> cropped;
   for (size_t i = 0; i < own.size(); ++i) {
-    const Window& window = windowOf(file, *own[i].channel);
+    const Window& window = partWindow(file, *own[i].channel);
     if (window == file.dataWindow) continue;
     cropped.emplace_back(i, static_cast<size_t>(window.pixels()) * bytesOf(own[i].type));
     own[i].pixels = cropped.back().second.data();

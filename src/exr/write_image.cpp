@@ -35,7 +35,7 @@ class Stream : public Imf::OStream {
   AtomicFile& file_;
 };
 
-Imath::Box2i boxOf(const Window& w) {
+Imath::Box2i openExrBox(const Window& w) {
   return {Imath::V2i(w.x, w.y), Imath::V2i(w.x + w.width - 1, w.y + w.height - 1)};
 }
 
@@ -44,7 +44,9 @@ Imf::PixelType fileType(PixelType type) {
   return type == PixelType::uint ? Imf::UINT : Imf::FLOAT;
 }
 
-uint16_t halfBits(float value) {
+/// The nearest half, but a number beyond a half's range is held at the largest instead of becoming
+/// infinite.
+uint16_t heldHalf(float value) {
   constexpr float largest = 65504.0f;
   if (value > largest && value <= 3.4028235e38f) value = largest;
   if (value < -largest && value >= -3.4028235e38f) value = -largest;
@@ -55,7 +57,7 @@ Plane<uint16_t> toHalf(View<const float> values) {
   Plane<uint16_t> halves(values.width, values.height);
   parallelRows(values.height, [&](int first, int end) {
     for (int y = first; y < end; ++y) {
-      for (int x = 0; x < values.width; ++x) halves(x, y) = halfBits(values(x, y));
+      for (int x = 0; x < values.width; ++x) halves(x, y) = heldHalf(values(x, y));
     }
   });
   return halves;
@@ -130,7 +132,8 @@ Imf::Header makeHeader(const OutputImage& image) {
   constexpr std::array<Imf::Compression, 5> codecs = {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION,
                                                       Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
                                                       Imf::PIZ_COMPRESSION};
-  Imf::Header header(boxOf(image.displayWindow), boxOf(image.dataWindow), image.pixelAspect);
+  Imf::Header header(openExrBox(image.displayWindow), openExrBox(image.dataWindow),
+                     image.pixelAspect);
   header.compression() = codecs[static_cast<size_t>(image.compression)];
   if (image.source) detail::carryAttributes(*image.source, image.allParts, header);
   for (const auto& [name, value] : image.attributes) {

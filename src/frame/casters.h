@@ -5,24 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "frame/sidecar.h"
 #include "passes/casters/caster_mesh.h"
 
 namespace kagefude {
-
-/// One entry of the sidecar's `casters`: an object, its mesh's file, and where it stands.
-///   "casters": [{"object": "Cup", "file": "shot.casters/4f0c….obj", "world_from_object": M}]
-/// Paths are relative to the JSON. Files are named by their content, so a mesh that does not deform
-/// is written once for the whole shot and instances share one file.
-struct CasterEntry {
-  std::string object;
-  std::string file;
-  Transform worldFromObject;
-};
-
-/// The `casters` list of a sidecar; empty when it has none. Throws InputError that names the
-/// sidecar when the JSON or an entry is malformed, a number is not finite, or a path is absolute or
-/// leaves the sidecar's folder.
-std::vector<CasterEntry> readCasterEntries(const std::filesystem::path& sidecar);
 
 /// Reads a Wavefront OBJ file (v and f lines; all else is skipped, polygons are cut into fans) as
 /// one mesh without a name, in the file's own space, not yet cleaned. No other file is opened on
@@ -32,13 +18,12 @@ std::vector<CasterEntry> readCasterEntries(const std::filesystem::path& sidecar)
 /// not OBJ.
 CasterMesh readObj(const std::filesystem::path& path);
 
-/// All casters of a frame in world space, cleaned, with `idOf(object)` as their ID, and one warning
-/// for each with faults. A file that several entries name is read once.
+/// All casters that a frame's JSON names, in world space, cleaned, with `idOf(object)` as their ID,
+/// and one warning for each with faults. A file that several entries name is read once.
 struct FrameCasters {
   std::vector<CasterMesh> meshes;
   std::vector<std::string> warnings;
 };
-FrameCasters readCasters(const std::filesystem::path& sidecar,
-                         const std::map<std::string, uint32_t>& idOf);
+FrameCasters readCasters(const Sidecar& sidecar, const std::map<std::string, uint32_t>& idOf);
 
 }  // namespace kagefude

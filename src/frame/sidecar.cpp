@@ -190,6 +190,10 @@ SidecarMaterial readMaterial(const JsonPlace& json) {
   return material;
 }
 
+SidecarCaster readCaster(const JsonPlace& json) {
+  return {json["object"].text(), json["file"].fileBeside(), json["world_from_object"].matrix()};
+}
+
 void checkVersion(const JsonPlace& json, const std::filesystem::path& path) {
   const int version = json["kagefude"].integer(0, 1 << 20);
   if (version != formatVersion) {
@@ -234,6 +238,9 @@ void readLists(const JsonPlace& json, Sidecar& sidecar) {
     }
     checkNames(json["materials"], sidecar.materials);
   }
+  if (json.has("casters"))
+    for (const JsonPlace& caster : json["casters"].list())
+      sidecar.casters.push_back(readCaster(caster));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ struct LightMasks {
   double offset = 0;  ///< world units; pair: the seed's l; line: half its length; disc: its radius;
                       ///< grid: half its longer side
   double offsetV = 0;  ///< of a stretched disc or a grid, along v; else as `offset`
-  std::vector<MaskSample> samples;
+  std::vector<MaskSample> samples{};
 };
 
 struct LightDepthMap {
@@ -103,10 +103,10 @@ struct SidecarMaterial {
 /// What a light gives over the whole shot: luminance that arrives at the subject, facing it.
 struct ShotLight {
   std::string name;
-  double irradiance = 0;                ///< mean; watts per square metre
-  double largestIrradiance = 0;         ///< in any frame that was looked at
-  std::optional<double> largestPower;   ///< luminance of energy times color, in any such frame
-  std::optional<double> largestOnAxis;  ///< irradiance, were the subject on the light's axis
+  double irradiance = 0;                  ///< mean; watts per square metre
+  double largestIrradiance = 0;           ///< in any frame that was looked at
+  std::optional<double> largestPower{};   ///< luminance of energy times color, in any such frame
+  std::optional<double> largestOnAxis{};  ///< irradiance, were the subject on the light's axis
 };
 
 /// What holds for the whole shot, the same beside each of its frames.
@@ -116,6 +116,16 @@ struct WholeShot {
   double subjectRadius = 0;
   double distance = 0;  ///< of the subject along the camera's view, world units; 0: not before it
   std::vector<ShotLight> lights;
+};
+
+/// One entry of `casters`: an object, its mesh's file, and where it stands.
+///   "casters": [{"object": "Cup", "file": "shot.casters/4f0c….obj", "world_from_object": M}]
+/// Files are named by their content, so a mesh that does not deform is written once for the whole
+/// shot and instances share one file.
+struct SidecarCaster {
+  std::string object;
+  std::filesystem::path file;  ///< beside the JSON; already joined with its folder
+  Transform worldFromObject;
 };
 
 struct Sidecar {
@@ -133,6 +143,7 @@ struct Sidecar {
   std::vector<SidecarLight> lights;
   std::vector<SidecarObject> objects;
   std::vector<SidecarMaterial> materials;
+  std::vector<SidecarCaster> casters;  ///< the shapes that cast shadows
 
   const SidecarLight* findLight(std::string_view name) const;
   const SidecarObject* findObject(std::string_view name) const;

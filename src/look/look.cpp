@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
+
 #include "base/error.h"
 #include "base/plain_file.h"
 #include "look/override.h"
@@ -43,40 +46,61 @@ void checkVersion(const toml::table& root) {
                                 placeOf(*node), formatVersion));
 }
 
-std::vector<std::string> passNames() {
+std::string_view nameOf(Scope scope) { return scopeNames[static_cast<size_t>(scope)]; }
+
+/// The sections that may stand among the keys of an entry of a list; a key of its own that is
+/// called as one comes first.
+std::vector<const LookSection*> sectionsAmong(std::span<const Parameter> keys) {
+  std::vector<const LookSection*> sections;
+  for (const LookSection& section : lookSections) {
+    const bool isKey = std::any_of(keys.begin(), keys.end(), [&](const Parameter& key) {
+      return key.name == section.table->pass;
+    });
+    if (!section.isList() && !isKey) sections.push_back(&section);
+  }
+  return sections;
+}
+
+std::vector<std::string> namesOf(const std::vector<const LookSection*>& sections) {
   std::vector<std::string> names;
-  for (const PassEntry& pass : passList()) names.emplace_back(pass.table->pass);
+  for (const LookSection* section : sections) names.emplace_back(section->table->pass);
   return names;
 }
 
 /// Where a section that does nothing in a scope would act.
-std::string remedyFor(const std::string& section) {
+std::string remedyFor(const LookSection& section) {
+  const std::string_view name = section.table->pass;
   for (const Scope scope : {Scope::light, Scope::style})
     if (actsIn(scope, section))
-      return fmt::format("give it in [{}] or under [[{}]]", section,
-                         scopeNames[static_cast<size_t>(scope)]);
-  return fmt::format("give it in [{}]", section);
+      return fmt::format("give it in [{}] or under [[{}]]", name, nameOf(scope));
+  return fmt::format("give it in [{}]", name);
 }
 
 /// Settings that would be taken and do nothing are refused by name.
-void refuseIdle(const toml::table& section, std::string_view name, Scope scope) {
-  const std::string pass(name), under(scopeNames[static_cast<size_t>(scope)]);
-  if (!actsIn(scope, pass))
-    throw LookError(fmt::format("{}: {} does nothing under [[{}]]; {}", placeOf(section), pass,
-                                under, remedyFor(pass)));
-  for (const auto& [key, node] : section)
-    if (!actsIn(scope, pass, key.str()))
+void refuseIdle(const toml::table& given, const LookSection& section, Scope scope) {
+  const std::string_view name = section.table->pass, under = nameOf(scope);
+  if (!actsIn(scope, section))
+    throw LookError(fmt::format("{}: {} does nothing under [[{}]]; {}", placeOf(given), name, under,
+                                remedyFor(section)));
+  for (const auto& [key, node] : given)
+    if (!actsIn(scope, section, key.str()))
       throw LookError(
           fmt::format("{}: {}.{} does nothing under [[{}]], for it holds for the whole look; give "
                       "it in [{}]",
-                      placeOf(node), pass, key.str(), under, pass));
+                      placeOf(node), name, key.str(), under, name));
 }
 
-void readPasses(const toml::table& root, PassParams& params, Scope scope) {
-  for (const PassEntry& pass : passList())
-    if (const toml::table* section = findSection(root, pass.table->pass)) {
-      refuseIdle(*section, pass.table->pass, scope);
-      readSection(*section, *pass.table, pass.in(params));
+void* placeIn(Look& look, const LookSection& section) { return section.inLook(look); }
+void* placeIn(LightLook& light, const LookSection& section) { return section.inLight(light); }
+void* placeIn(StyleLook& style, const LookSection& section) { return section.inStyle(style); }
+
+template <class Owner>
+void readSections(const toml::table& root, const std::vector<const LookSection*>& sections,
+                  Scope scope, Owner& owner) {
+  for (const LookSection* section : sections)
+    if (const toml::table* given = findSection(root, section->table->pass)) {
+      refuseIdle(*given, *section, scope);
+      readSection(*given, *section->table, placeIn(owner, *section));
     }
 }
 
@@ -95,78 +119,56 @@ std::vector<const toml::table*> tablesOf(const toml::table& root, const char* na
   return result;
 }
 
-void readOwnSections(const toml::table& root, Look& look) {
-  const auto read = [&](const ParameterTable& table, void* params) {
-    if (const toml::table* section = findSection(root, table.pass))
-      readSection(*section, table, params);
-  };
-  read(aovNamesTable, &look.frame);
-  read(shadowTable, &look.shadow);
-  read(sceneTable, &look.scene);
-  read(colourTable, &look.colour);
-  read(outputTable, &look.output);
-}
-
 void readLights(const toml::table& root, Look& look) {
-  std::vector<std::string> nested = passNames();
-  nested.emplace_back(shadowTable.pass);
+  const auto nested = sectionsAmong(lightTable.parameters);
   for (const toml::table* section : tablesOf(root, "light")) {
     LightLook light{{}, look.shadow, look.passes};
-    readSection(*section, lightTable, &light.light, nested);
+    readSection(*section, lightTable, &light.light, namesOf(nested));
     if (light.light.name.empty())
       throw LookError(fmt::format("{}: a [[light]] wants a name", placeOf(*section)));
     for (const LightLook& other : look.lights)
       if (other.light.name == light.light.name)
         throw LookError(fmt::format("{}: there are two [[light]] named {}", placeOf(*section),
                                     light.light.name));
-    if (const toml::table* shadow = findSection(*section, shadowTable.pass)) {
-      refuseIdle(*shadow, shadowTable.pass, Scope::light);
-      readSection(*shadow, shadowTable, &light.shadow);
-    }
-    readPasses(*section, light.passes, Scope::light);
+    readSections(*section, nested, Scope::light, light);
     look.lights.push_back(std::move(light));
   }
 }
 
 void readStyles(const toml::table& root, Look& look) {
-  const std::vector<std::string> nested = passNames();
+  const auto nested = sectionsAmong(styleTable.parameters);
   for (const toml::table* section : tablesOf(root, "style")) {
     StyleLook style{{}, look.passes};
-    readSection(*section, styleTable, &style.style, nested);
+    readSection(*section, styleTable, &style.style, namesOf(nested));
     const size_t numbers = style.style.reference.size();
     if (numbers != 0 && numbers != 3)
       throw LookError(fmt::format("{}: style.reference wants three numbers", placeOf(*section)));
-    readPasses(*section, style.passes, Scope::style);
+    readSections(*section, nested, Scope::style, style);
     look.styles.push_back(std::move(style));
   }
 }
 
-template <class Params>
-void spell(std::string& text, const std::string& heading, const ParameterTable& table,
-           const Params& params) {
-  text += heading + "\n";
-  for (const Parameter& p : table.parameters)
-    text += fmt::format("{} = {}\n", p.name, spellValue(p, p.get(&params)));
+void spellKey(std::string& text, const Parameter& parameter, const void* values) {
+  text += fmt::format("{} = {}\n", parameter.name, spellValue(parameter, parameter.get(values)));
+}
+
+void spellEntry(std::string& text, const ParameterTable& list, const void* values) {
+  text += fmt::format("[[{}]]\n", list.pass);
+  for (const Parameter& parameter : list.parameters) spellKey(text, parameter, values);
   text += "\n";
 }
 
-/// Without the keys that would be refused there.
-void spellScoped(std::string& text, const std::string& heading, const ParameterTable& table,
-                 Scope scope, const void* values) {
-  text += heading + "\n";
-  for (const Parameter& p : table.parameters)
-    if (actsIn(scope, table.pass, p.name))
-      text += fmt::format("{} = {}\n", p.name, spellValue(p, p.get(values)));
-  text += "\n";
-}
-
-void spellPasses(std::string& text, Scope scope, PassParams params) {
-  const std::string prefix =
-      scope == Scope::look ? "" : fmt::format("{}.", scopeNames[static_cast<size_t>(scope)]);
-  for (const PassEntry& pass : passList()) {
-    const std::string_view section = pass.table->pass;
+/// Without the sections and keys that would be refused there.
+template <class Owner>
+void spellSections(std::string& text, Scope scope, Owner owner) {
+  const std::string prefix = scope == Scope::look ? "" : fmt::format("{}.", nameOf(scope));
+  for (const LookSection& section : lookSections) {
     if (!actsIn(scope, section)) continue;
-    spellScoped(text, fmt::format("[{}{}]", prefix, section), *pass.table, scope, pass.in(params));
+    text += fmt::format("[{}{}]\n", prefix, section.table->pass);
+    for (const Parameter& parameter : section.table->parameters)
+      if (actsIn(scope, section, parameter.name))
+        spellKey(text, parameter, placeIn(owner, section));
+    text += "\n";
   }
 }
 
@@ -192,13 +194,12 @@ Look readLook(const std::filesystem::path& path, const std::vector<std::string>&
   for (const std::string& text : overrides) applyOverride(root, text);
   checkVersion(root);
   std::vector<std::string> known{"kagefude"};
-  for (const ParameterTable* table : allTables()) known.emplace_back(table->pass);
+  for (const LookSection& section : lookSections) known.emplace_back(section.table->pass);
   refuseOtherKeys(root, "the look", known);
 
   Look look;
   look.folder = path.parent_path();
-  readOwnSections(root, look);
-  readPasses(root, look.passes, Scope::look);
+  readSections(root, sectionsAmong({}), Scope::look, look);
   readLights(root, look);
   readStyles(root, look);
   return look;
@@ -206,20 +207,14 @@ Look readLook(const std::filesystem::path& path, const std::vector<std::string>&
 
 std::string resolvedText(const Look& look) {
   std::string text = fmt::format("kagefude = {}\n\n", formatVersion);
-  spell(text, "[frame]", aovNamesTable, look.frame);
-  spell(text, "[shadow]", shadowTable, look.shadow);
-  spell(text, "[scene]", sceneTable, look.scene);
-  spell(text, "[colour]", colourTable, look.colour);
-  spell(text, "[output]", outputTable, look.output);
-  spellPasses(text, Scope::look, look.passes);
+  spellSections(text, Scope::look, look);
   for (const LightLook& light : look.lights) {
-    spell(text, "[[light]]", lightTable, light.light);
-    spellScoped(text, "[light.shadow]", shadowTable, Scope::light, &light.shadow);
-    spellPasses(text, Scope::light, light.passes);
+    spellEntry(text, lightTable, &light.light);
+    spellSections(text, Scope::light, light);
   }
   for (const StyleLook& style : look.styles) {
-    spell(text, "[[style]]", styleTable, style.style);
-    spellPasses(text, Scope::style, style.passes);
+    spellEntry(text, styleTable, &style.style);
+    spellSections(text, Scope::style, style);
   }
   return text;
 }

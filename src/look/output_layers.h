@@ -40,6 +40,7 @@ struct OutputLayerEntry {
   std::string_view sentence;
   LayerFunction function;
   std::string_view onlyMethod = "";  ///< of a light's layer: the shadow.method that brings it
+  bool mixes = true;                 ///< whether the mean of two pixels means something
 };
 
 /// All layers. Of one light they are taken in this order.
@@ -55,11 +56,11 @@ inline constexpr std::array outputLayers{
     OutputLayerEntry{"outline", PixelType::single, LayerStage::frame, "coverage by the outlines",
                      outlineLayer},
     OutputLayerEntry{"brush.angle", PixelType::single, LayerStage::frame, "the stroke angle",
-                     angleLayer},
+                     angleLayer, "", false},
     OutputLayerEntry{"brush.repeat", PixelType::single, LayerStage::frame,
-                     "repeats of the strip along the stroke", repeatLayer},
+                     "repeats of the strip along the stroke", repeatLayer, "", false},
     OutputLayerEntry{"surface.id", PixelType::uint, LayerStage::frame,
-                     "number of the smooth surface, 0 the background", surfaceLayer},
+                     "number of the smooth surface, 0 the background", surfaceLayer, "", false},
 };
 
 /// Bytes a pixel.

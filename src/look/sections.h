@@ -95,6 +95,7 @@ struct OutputParams {
   Edges edges = Edges::coverage;
   PixelKind colour = PixelKind::half;
   Compression compression = Compression::zip;
+  int scale = 1;
 };
 inline constexpr Parameter outputParameters[] = {
     plain<&OutputParams::layers>("layers", outputLayerHelp.view()),
@@ -108,6 +109,10 @@ inline constexpr Parameter outputParameters[] = {
     choice<&OutputParams::colour>("colour", pixelKindNames,
                                   "type of R,G,B,A; data layers are always float"),
     choice<&OutputParams::compression>("compression", compressionNames, "lossless EXR compression"),
+    number<&OutputParams::scale>(
+        "scale", 1, 4, "",
+        "how many times smaller than the frame the picture is written, filtered in linear light: "
+        "2 for frames exported with --scale 2. Lengths in pixels are those of what is written"),
 };
 inline constexpr ParameterTable outputTable{"output", "chooses what is written", "kagefude",
                                             outputParameters};

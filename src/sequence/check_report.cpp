@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "base/printed_json.h"
 #include "picture/draw_plot.h"
 #include "sequence/check_sequence.h"
 
@@ -34,7 +35,7 @@ std::string checkJson(const CheckResult& r) {
         {"grain", {{"median", r.grain}, {"low", r.grainLow}, {"high", r.grainHigh}}}}},
       {"breaks", breaks},
       {"frames", frames}};
-  return json.dump(2);
+  return printedJson(json);
 }
 
 void plotCheck(const CheckResult& result, const std::filesystem::path& path) {

@@ -129,7 +129,7 @@ struct CompBatch::Composed {
 CompBatch::CompBatch(const Look& look, CompRequest request)
     : look_(look),
       request_(std::move(request)),
-      jobs_(planFrames(request_.plan, &notes_)),
+      jobs_(planJobs(request_.plan, &notes_)),
       colour_(look.colourConfig()),
       strips_(look, colour_),
       common_(commonFingerprint(look, colour_)),

@@ -13,7 +13,7 @@
 #include "look/look.h"
 #include "sequence/batch.h"
 #include "sequence/fingerprint.h"
-#include "sequence/frame_plan.h"
+#include "sequence/frame_jobs.h"
 #include "sequence/report.h"
 
 namespace kagefude {
@@ -44,7 +44,7 @@ struct CompEvent {
 /// touched, so that an error of the look shows with nothing written.
 class CompBatch {
  public:
-  /// Throws UsageError, LookError and InputError as planFrames, Look, Colour and StripSet do.
+  /// Throws UsageError, LookError and InputError as planJobs, Look, Colour and StripSet do.
   CompBatch(const Look& look, CompRequest request);
   ~CompBatch();
 
@@ -52,7 +52,7 @@ class CompBatch {
   /// What of the look fitted nothing in all frames, a sentence each; after run(). Empty where
   /// frames were kept, for what these show is not known.
   std::vector<std::string> unused() const;
-  /// What the plan has to say beside its jobs, see planFrames.
+  /// What the plan has to say beside its jobs, see planJobs.
   const std::vector<std::string>& notes() const { return notes_; }
   /// Runs all jobs in the current TBB arena; `onFrame` is never called twice at a time. Frames
   /// whose outputs were made and are not on the disk any more when all is over come back as `lost`.

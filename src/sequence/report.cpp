@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cstdlib>
 
-#include "base/error.h"
+#include "base/folders.h"
 #include "base/temp_file.h"
 #include "image/box_reduce.h"
 #include "sequence/report_page.h"
@@ -95,11 +95,7 @@ std::vector<size_t> findPops(const std::vector<double>& changes) {
 
 Report::Report(fs::path folder, ReportHeader header, WriteImage writeImage)
     : folder_(std::move(folder)), header_(std::move(header)), writeImage_(std::move(writeImage)) {
-  std::error_code failed;
-  fs::create_directories(folder_ / "thumbs", failed);
-  if (failed)
-    throw OutputError(
-        fmt::format("cannot make the report in {}: {}", folder_.string(), failed.message()));
+  makeFolders(folder_ / "thumbs");
   removeLeftovers(folder_);
   removeLeftovers(folder_ / "thumbs");
 }

@@ -15,7 +15,8 @@ struct ReportStrip {
   std::vector<FrameChange> changes;
 };
 
-/// The text with &, <, >, " and ' written as HTML entities and control characters left out.
+/// The text with &, <, >, " and ' written as HTML entities and control characters
+/// as printableLines has them.
 std::string escapeHtml(std::string_view text);
 
 /// The whole page: style, pictures' places and plots in one text, no links to other hosts.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "base/printable.h"
+
 namespace kagefude {
 namespace {
 
@@ -146,7 +148,7 @@ std::string timePlot(const StripView& view) {
 
 std::string escapeHtml(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : printableLines(text)) {
     switch (c) {
       case '&':
         result += "&amp;";

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "base/error.h"
 #include "test_folder.h"
 
@@ -18,6 +20,17 @@ TEST(Folders, AreMadeWithThoseAbove) {
   makeFolders(folder / "d/");
   EXPECT_TRUE(fs::is_directory(folder / "d"));
   makeFolders("");
+}
+
+TEST(Folders, AreFlushedInTheirParents) {
+  const TestFolder folder;
+  std::vector<fs::path> flushed;
+  const auto note = [&](const fs::path& parent) { flushed.push_back(parent); };
+  makeFolders(folder / "a/b", note);
+  EXPECT_EQ(flushed, (std::vector<fs::path>{folder.path(), folder / "a"}));
+  flushed.clear();
+  makeFolders(folder / "a/b", note);
+  EXPECT_TRUE(flushed.empty());
 }
 
 TEST(Folders, AFileInTheWayIsOneClearError) {

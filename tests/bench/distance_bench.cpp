@@ -27,6 +27,8 @@ const LabelledShadow& frame() {
   return made;
 }
 
+#ifdef KAGEFUDE_HAVE_OPENCV
+
 /// Roots where a distance was wanted; stretches without any are only looked at.
 KAGEFUDE_CLONES void takeRoots(const uint32_t* squared, int count, float* distance) {
   constexpr int stretch = 64;
@@ -47,8 +49,6 @@ void distances(const SiteSearch& search, View<uint32_t> squared, View<float> dis
     takeRoots(squared.row(first), (end - first) * width, distance.row(first));
   });
 }
-
-#ifdef KAGEFUDE_HAVE_OPENCV
 
 /// 0 where a pixel is a site, as distanceTransform wants it.
 cv::Mat zeroAtSites(uint8_t site) {

@@ -106,7 +106,7 @@ TEST_F(StrokeGroundsTest, ZeroRestIsNamedAndThePictureIsAsWithout) {
   for (const char* axis : {"X", "Y", "Z"}) frame.plane(std::string("Rest.") + axis, 0.0f);
   EXPECT_FALSE(style().anchors[0].atRest);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("object Thing holds no rest positions"), std::string::npos);
+  EXPECT_NE(warnings[0].find("objects hold no rest positions (Thing)"), std::string::npos);
   const FrameResult with = frame.comp("");
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -125,7 +125,7 @@ TEST_F(StrokeGroundsTest, NoAlphaAndNotFiniteAreNoRest) {
   const StyledSurfaces styled = style();
   ASSERT_TRUE(styled.anchors[0].atRest);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("in some of its pixels"), std::string::npos);
+  EXPECT_NE(warnings[0].find("in some of their pixels"), std::string::npos);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (int k = 0; k < 3; ++k)

@@ -44,6 +44,17 @@ check "the difference picture is$pixels" grep -qE '^ 17[89] 17[89] 12[78] 0$' <<
 "$kagefude" compare "$work/b.exr" "$work/b.exr" --channel truth.Key.V >"$work/text"
 says "$work/text" "RMSE 0.0000, maximum 0.0000"
 
+# A picture that was moved is compared where it stands: 0.6, 0.6, 1.0 against 0.5, 1.0, 1.0.
+oiiotool "$work/a.exr" --ch visibility.Key --origin +1+0 --fullsize 4x1+0+0 -o "$work/moved.exr"
+"$kagefude" compare "$work/moved.exr" "$work/b.exr" --channel visibility.Key --against truth.Key >"$work/text"
+says "$work/text" "all 3 pixels" "not counted: 2 pixels that only one of the files covers"
+# Where no object is, a visibility of 1 and a truth of 0 mean the same.
+row "$work/n.exr" N.X 0 1 0 -1
+oiiotool "$work/n.exr" --ch N.X,N.X,N.X --chnames N.X,N.Y,N.Z -o "$work/n3.exr"
+oiiotool "$work/b.exr" "$work/n3.exr" --chappend -o "$work/bn.exr"
+"$kagefude" compare "$work/a.exr" "$work/bn.exr" --channel visibility.Key --against truth.Key >"$work/text"
+says "$work/text" "all 2 pixels: RMSE 0.2236, maximum 0.3000" "not counted: 2 pixels of background"
+
 # refused MESSAGE-PART COMMAND...: exit 1, one line, which holds the part.
 refused() {
   local part=$1 code

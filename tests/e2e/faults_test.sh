@@ -41,11 +41,11 @@ for i in $(seq 40); do
 done
 ( while [ ! -f gone/m.0004.exr ]; do sleep 0.005; done; until rm -rf gone 2>/dev/null; do :; done ) &
 watcher=$!
-code=$(exit_code run comp look.toml 'many/m.####.exr' -o 'gone/m.####.exr' --threads 1 --progress plain)
+code=$(exit_code run comp look.toml 'many/m.####.exr' -o 'gone/m.####.exr' --threads 1 --progress plain --skip-bad-frames)
 wait "$watcher"
-there=$(find gone -name "m.*" 2>/dev/null | wc -l)
+there=$({ find gone -name "m.*" 2>/dev/null || true; } | wc -l)
 check "a folder removed: exit $code" test "$code" -eq 1
-check "a folder removed: $there there, said: $(tail -2 log)" grep -qE "^$there frames? done, [1-9][0-9]* lost" log
+check "a folder removed: $there there, said: $(tail -2 log)" grep -qE "^$there frames? done,( [0-9]+ failed,)? [1-9][0-9]* lost" log
 check "a folder removed: no ERROR line" grep -q '^ERROR: frames .* not on the disk any more' log
 
 # Files that are read are never written, whatever they are called; suffixes mean what they say.
@@ -125,11 +125,11 @@ small 1 "attribute a claims" inspect string.exr
 small 1 "attribute a claims" inspect floats.exr
 small 1 "iCCP claims" strip check profile.png
 for frames in 1-10000000 1,2-9999999; do
-  for options in '' --skip-bad-frames; do
-    # shellcheck disable=SC2086
-    small 1 "it has 1-3" comp look.toml 'in/shot.####.exr' -o 'x.####.exr' --frames "$frames" $options
-  done
+  small 1 "it has 1-3" comp look.toml 'in/shot.####.exr' -o 'x.####.exr' --frames "$frames"
 done
+small 1 "9998997 more are not there" comp look.toml 'in/shot.####.exr' -o 'skipped/x.####.exr' \
+  --frames 1-10000000 --skip-bad-frames
+check "missing frames by the million: $(ls skipped)" test "$(find skipped -name '*.exr' | wc -l)" -eq 3
 
 # The log cannot be forged.
 cp one.exr forged.exr
@@ -158,6 +158,26 @@ full strip check strips/one.png
 full strip make strips/other.png
 full compare one.exr one.exr --channel data.Depth
 full bench --size 64x64 --rounds 1
+
+# The painted strip's own keys are listed by the name that its help gives.
+expect 0 "stroke_width" passes strip
+
+# Warnings are one line a kind and a run, whatever the frames' objects and numbers are.
+mkdir bare
+for i in 1 2 3; do cp "in/shot.000$i.exr" "bare/b.000$i.exr"; done
+cat >bare.toml <<'LOOK'
+[[light]]
+name = "Key"
+masks = ["mask.Key.0", "mask.Key.1"]
+position = [2.0, -2.0, 4.0]
+[[style]]
+object = "*"
+strip = "builtin:soft"
+LOOK
+expect 0 "have no bounds in a sidecar" comp bare.toml 'bare/b.####.exr' -o 'bared/b.####.exr' --threads 1
+check "warnings repeat: $(grep '^warning' log)" \
+  test -z "$(grep '^warning' log | sed 's/([^)]*)//g; s/[0-9]\{1,\}/#/g' | sort | uniq -d)"
+check "objects by line: $(grep -c 'no bounds' log)" test "$(grep -c 'no bounds' log)" -eq 1
 
 # A picture that is no strip ends with a sentence.
 oiiotool --pattern noise 64x64 3 -d uint8 -o noise.png

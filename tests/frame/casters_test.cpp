@@ -28,6 +28,16 @@ class Casters : public testing::Test {
     return R"({"object":"Cup","file":")" + file + R"(","world_from_object":)" + rows + "}";
   }
 
+  /// The sidecar of a frame whose JSON has this as its casters.
+  Sidecar with(const std::string& casters) const {
+    const std::string unit = "[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]";
+    return readSidecar(write(
+        "f.json", R"({"kagefude":1,"frame":1,"fps":24,"resolution":[8,8],"lights":[],"camera":{)"
+                  R"("type":"perspective","position":[0,0,5],"direction":[0,0,-1],)"
+                  R"("camera_from_world":)" +
+                      unit + R"(,"clip_from_camera":)" + unit + R"(},"casters":)" + casters + "}"));
+  }
+
   const std::string moved_ = "[[1,0,0,5],[0,1,0,0],[0,0,2,0],[0,0,0,1]]";
   const std::string triangle_ = "# c\nmtllib ../x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n";
   fs::path folder_;
@@ -35,7 +45,7 @@ class Casters : public testing::Test {
 
 TEST_F(Casters, PlacedNamedAndNumbered) {
   write("a.obj", triangle_);
-  const fs::path sidecar = write("f.json", "{\"casters\":[" + entry("a.obj", moved_) + "]}");
+  const Sidecar sidecar = with("[" + entry("a.obj", moved_) + "]");
   const FrameCasters casters = readCasters(sidecar, {{"Cup", 7}});
   ASSERT_EQ(casters.meshes.size(), 1u);
   EXPECT_TRUE(casters.warnings.empty());
@@ -49,7 +59,7 @@ TEST_F(Casters, PlacedNamedAndNumbered) {
 TEST_F(Casters, InstancesShareAFileAndPolygonsAreCut) {
   write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   const std::string one = entry("a.obj", moved_);
-  const fs::path sidecar = write("f.json", "{\"casters\":[" + one + "," + one + "]}");
+  const Sidecar sidecar = with("[" + one + "," + one + "]");
   const FrameCasters casters = readCasters(sidecar, {});
   ASSERT_EQ(casters.meshes.size(), 2u);
   EXPECT_EQ(casters.meshes[1].triangles.size(), 2u);
@@ -58,7 +68,7 @@ TEST_F(Casters, InstancesShareAFileAndPolygonsAreCut) {
 
 TEST_F(Casters, BadTrianglesWarn) {
   write("a.obj", triangle_ + "v nan 0 0\nf 1 2 9\nf 1 1 2\n");
-  const fs::path sidecar = write("f.json", "{\"casters\":[" + entry("a.obj", moved_) + "]}");
+  const Sidecar sidecar = with("[" + entry("a.obj", moved_) + "]");
   const FrameCasters casters = readCasters(sidecar, {});
   EXPECT_EQ(casters.meshes[0].triangles.size(), 1u);
   ASSERT_EQ(casters.warnings.size(), 1u);
@@ -87,7 +97,7 @@ TEST_F(Casters, HostileMeshesAreRefusedOrLeftOut) {
                                  "v x y z\nv 1 0 0\nv 0 1 1\nf 1 2 3\n"};
   for (const std::string& text : hostile) {
     write("a.obj", text);
-    const fs::path sidecar = write("f.json", "{\"casters\":[" + entry("a.obj", moved_) + "]}");
+    const Sidecar sidecar = with("[" + entry("a.obj", moved_) + "]");
     try {
       const FrameCasters casters = readCasters(sidecar, {});
       ASSERT_EQ(casters.meshes.size(), 1u);
@@ -101,10 +111,10 @@ TEST_F(Casters, HostileMeshesAreRefusedOrLeftOut) {
 }
 
 TEST_F(Casters, AMatrixThatFlattensOrThrowsOutIsWarnedOf) {
-  write("a.obj", triangle_);
+  write("a.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1e30 1\nf 1 2 3\n");
   for (const char* rows : {"[[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,1]]",
-                           "[[1e300,0,0,0],[0,1e300,0,0],[0,0,1e300,0],[0,0,0,1]]"}) {
-    const fs::path sidecar = write("f.json", "{\"casters\":[" + entry("a.obj", rows) + "]}");
+                           "[[1e30,0,0,0],[0,1e30,0,0],[0,0,1e30,0],[0,0,0,1]]"}) {
+    const Sidecar sidecar = with("[" + entry("a.obj", rows) + "]");
     const FrameCasters casters = readCasters(sidecar, {});
     EXPECT_TRUE(casters.meshes[0].triangles.empty()) << rows;
     ASSERT_EQ(casters.warnings.size(), 1u) << rows;
@@ -114,26 +124,31 @@ TEST_F(Casters, AMatrixThatFlattensOrThrowsOutIsWarnedOf) {
 }
 
 TEST_F(Casters, NoCastersIsNoError) {
-  EXPECT_TRUE(readCasters(write("f.json", "{}"), {}).meshes.empty());
+  EXPECT_TRUE(readCasters(with("[]"), {}).meshes.empty());
+  EXPECT_TRUE(readCasters(with("null"), {}).meshes.empty());
 }
 
 TEST_F(Casters, MalformedSidecarsAndFilesAreRefused) {
-  for (const char* text :
-       {"", "[]", "{\"casters\":3}", "{\"casters\":[3]}", "{\"casters\":[{\"object\":\"Cup\"}]}"})
-    EXPECT_THROW(readCasters(write("f.json", text), {}), InputError) << text;
+  for (const char* casters : {"3", "{}", "[3]", "[{\"object\":\"Cup\"}]"})
+    EXPECT_THROW(with(casters), InputError) << casters;
   for (const char* rows : {"[]", "null", "[[1,0,0],[0,1,0],[0,0,1],[0,0,0]]",
-                           "[[1,0,0,\"x\"],[0,1,0,0],[0,0,1,0],[0,0,0,1]]"})
-    EXPECT_THROW(readCasterEntries(write("f.json", "{\"casters\":[" + entry("a.obj", rows) + "]}")),
-                 InputError)
-        << rows;
+                           "[[1,0,0,\"x\"],[0,1,0,0],[0,0,1,0],[0,0,0,1]]",
+                           "[[1e300,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]"})
+    EXPECT_THROW(with("[" + entry("a.obj", rows) + "]"), InputError) << rows;
   for (const char* file : {"/etc/passwd", "../a.obj", "x/../../a.obj", ""})
-    EXPECT_THROW(readCasterEntries(write("f.json", "{\"casters\":[" + entry(file, moved_) + "]}")),
-                 InputError)
-        << file;
-  EXPECT_THROW(
-      readCasters(write("f.json", "{\"casters\":[" + entry("gone.obj", moved_) + "]}"), {}),
-      InputError);
-  EXPECT_THROW(readCasters(folder_ / "gone.json", {}), InputError);
+    EXPECT_THROW(with("[" + entry(file, moved_) + "]"), InputError) << file;
+  EXPECT_THROW(readCasters(with("[" + entry("gone.obj", moved_) + "]"), {}), InputError);
+}
+
+TEST_F(Casters, AWrongEntryIsNamedByItsPlace) {
+  const std::string right = entry("a.obj", moved_);
+  try {
+    with("[" + right + "," + entry("../a.obj", moved_) + "]");
+    FAIL() << "a path out of the folder was taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("f.json: casters[1].file"), std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

@@ -64,7 +64,6 @@ void fuzzManifest(std::string_view input) {
 void fuzzSidecar(std::string_view input) {
   const FuzzFile file(input, ".json");
   swallowErrors([&] { readSidecar(file.path()); });
-  swallowErrors([&] { readCasterEntries(file.path()); });
 }
 
 void fuzzCasters(std::string_view input) {

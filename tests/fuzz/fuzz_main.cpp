@@ -7,7 +7,7 @@
 #include <string>
 
 #include "fuzz/harness.h"
-#include "look/pass_list.h"
+#include "look/look_sections.h"
 
 namespace {
 
@@ -18,10 +18,10 @@ const Harness* chosen = nullptr;
 /// Every section, key and choice that a look knows, from the parameter tables.
 void printDictionary() {
   std::set<std::string> words{"[[light]]", "[[style]]", "kagefude", "light", "style", "= ["};
-  for (const kagefude::ParameterTable* table : kagefude::allTables()) {
-    words.insert("[" + std::string(table->pass) + "]");
-    words.insert(std::string(table->pass) + ".");
-    for (const kagefude::Parameter& parameter : table->parameters) {
+  for (const kagefude::LookSection& section : kagefude::lookSections) {
+    words.insert("[" + std::string(section.table->pass) + "]");
+    words.insert(std::string(section.table->pass) + ".");
+    for (const kagefude::Parameter& parameter : section.table->parameters) {
       words.insert(std::string(parameter.name) + " = ");
       for (const std::string_view choice : parameter.choices)
         words.insert("'" + std::string(choice) + "'");

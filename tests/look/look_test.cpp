@@ -118,9 +118,10 @@ TEST_F(LookFile, ResolvedTextReadsBackToItself) {
   EXPECT_EQ(resolvedText(read(text)), text);
 }
 
-TEST(PassList, NamesAreUniqueAndDefaultsLieInTheirRanges) {
+TEST(LookSections, NamesAreUniqueAndDefaultsLieInTheirRanges) {
   std::vector<std::string_view> names;
-  for (const ParameterTable* table : allTables()) {
+  for (const LookSection& section : lookSections) {
+    const ParameterTable* table = section.table;
     EXPECT_EQ(std::count(names.begin(), names.end(), table->pass), 0) << table->pass;
     names.push_back(table->pass);
     for (const Parameter& p : table->parameters) {

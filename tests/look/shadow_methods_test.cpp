@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "look/pass_list.h"
+#include "look/look_sections.h"
 #include "look/sections.h"
 
 namespace kagefude {

@@ -140,7 +140,7 @@ bool compare(const std::string& name, const std::string& frame, const std::strin
     for (int x = 0; x < ids.width(); ++x) ids(x, y) = static_cast<uint32_t>(index(x, y));
   std::map<std::string, uint32_t> idOf;
   for (const Json& object : json["objects"]) idOf[object["name"]] = object["index"];
-  const FrameCasters read = readCasters(sidecar, idOf);
+  const FrameCasters read = readCasters(readSidecar(sidecar), idOf);
   for (const std::string& warning : read.warnings) fmt::print("warning: {}\n", warning);
   size_t triangles = 0;
   for (const CasterMesh& mesh : read.meshes) triangles += mesh.triangles.size();

@@ -58,7 +58,7 @@ TEST(FindPops, SlowGrowthIsNoJump) {
 }
 
 TEST(ReportPage, EscapesEverything) {
-  EXPECT_EQ(escapeHtml("<a href=\"x\">&'\x01"), "&lt;a href=&quot;x&quot;&gt;&amp;&#39;");
+  EXPECT_EQ(escapeHtml("<a href=\"x\">&'\x01"), "&lt;a href=&quot;x&quot;&gt;&amp;&#39;\\x01");
   const TestFolder folder;
   Writer writer;
   const std::string nasty = "</pre><script>alert(1)</script>";

@@ -79,7 +79,7 @@ void paintRow(const BrushInput& in, int x, int stop, int y, bool keepOthers, Col
     const bool known = index[x] > 0 && index[x] <= in.anchors.size();
     if (known && canPaintSeedRow(in, in.anchors[index[x] - 1]))
       paintSeedRow(in, in.anchors[index[x] - 1], x, end, y, out);
-    else if (known && canPaintObjectRow(in))
+    else if (known && canPaintObjectRow(in, in.anchors[index[x] - 1]))
       paintObjectRow(in, in.anchors[index[x] - 1], x, end, y, out);
     else if (known && canPaintHeldRow(in, in.anchors[index[x] - 1]))
       paintHeldRow(in, in.anchors[index[x] - 1], x, end, y, out);

@@ -55,8 +55,9 @@ BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> ton
 /// finite at every pixel of an anchor that is `atRest`. Places, their footprints and the reference
 /// points' shares are then taken from it. Which axes the strokes run along, and which plane the
 /// surface faces, is still decided by the light and the surface as it is seen, through the local
-/// map between the two (restAxes). A thing that does not deform looks as it does without, within
-/// roundings of its positions' changes.
+/// map between the two (restAxes). With `stretch = world` held strokes change their octave by the
+/// stretch of that map (strokeOctave). A thing that does not deform looks as it does without,
+/// within roundings of its positions' changes.
 void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
                 View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
                 std::span<const Strip> strips, const BrushParams& params, BrushResult& result,

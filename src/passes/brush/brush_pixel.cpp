@@ -57,7 +57,7 @@ void placeInObject(const BrushAnchor& anchor, BrushPixel& pixel) {
 
 // The same of places at rest. Where the map to rest is not known the object's axes stand.
 void placeAtRest(const BrushAnchor& anchor, const V3f& place, const V3f& dx, const V3f& dy,
-                 BrushPixel& pixel) {
+                 bool keepsSize, BrushPixel& pixel) {
   const V3f side = sideAtRest(anchor);
   const V3f& a = pixel.dx;
   const V3f& b = pixel.dy;
@@ -66,6 +66,7 @@ void placeAtRest(const BrushAnchor& anchor, const V3f& place, const V3f& dx, con
   float y[3] = {anchor.object.x.y, anchor.object.y.y, anchor.object.z.y};
   float z[3] = {anchor.object.x.z, anchor.object.y.z, anchor.object.z.z};
   restAxes(change, x, y, z);
+  if (keepsSize) pixel.octave = strokeOctave(anchor, restStretch(change));
   for (int k = 0; k < 3; ++k) {
     pixel.axes[k] = V3f(x[k], y[k], z[k]);
     pixel.place[k] = place[k];
@@ -97,6 +98,7 @@ BrushPixel pixelAt(const BrushInput& in, const BrushAnchor& anchor, int x, int y
     const float length = std::sqrt(n.dot(n));
     if (length > 0.0f && isFinite(n)) pixel.normal = n / length;
   }
+  pixel.octave = {anchor.mappingDistance, anchor.coarser, anchor.shift, anchor.coarserShift};
   Change right, below;
   if (filtered || atRest) {
     right = changeAlong(in, atRest, x, y, 1, 0, p, pixel.tone);
@@ -105,7 +107,7 @@ BrushPixel pixelAt(const BrushInput& in, const BrushAnchor& anchor, int x, int y
     pixel.dy = below.position;
   }
   if (atRest)
-    placeAtRest(anchor, in.rest(x, y), right.rest, below.rest, pixel);
+    placeAtRest(anchor, in.rest(x, y), right.rest, below.rest, keepsSizeInWorld(in, anchor), pixel);
   else
     placeInObject(anchor, pixel);
   if (filtered) {

@@ -37,6 +37,11 @@ inline bool liesAtRest(const BrushInput& in, const BrushAnchor& anchor) {
   return anchor.atRest && !in.rest.empty();
 }
 
+/// Whether an anchor's strokes keep their size in the world while its skin stretches.
+inline bool keepsSizeInWorld(const BrushInput& in, const BrushAnchor& anchor) {
+  return in.params.stretch == BrushParams::Stretch::world && liesAtRest(in, anchor);
+}
+
 /// Where polar and seed strokes have a pixel: its position, or its place at rest under the object's
 /// matrix of this frame.
 V3f strokePosition(const BrushInput& in, const BrushAnchor& anchor, int x, int y);

@@ -111,7 +111,8 @@ void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Bru
   float facing[3];
   for (int k = 0; k < 3; ++k) facing[k] = normal.dot(axes[k]) * normal.dot(axes[k]) + leastFacing;
   const float mostFacing = std::max(std::max(facing[0], facing[1]), facing[2]);
-  const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
+  const StrokeOctave& octave = pixel.octave;
+  const float perUnit = 1.0f / (2.0f * pi * octave.mappingDistance);
   const float *const place = pixel.place, *const placeDx = pixel.placeDx,
                      *const placeDy = pixel.placeDy;
   for (int k = 0; k < 3; ++k) {
@@ -125,15 +126,15 @@ void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Bru
     for (int side = 0; side < 2; ++side) {
       if (!(share[side] > 0.0f)) continue;
       const int i = axis[side], j = axis[1 - side];
-      const auto add = [&](float unit, float shift, float octave) {
-        if (!(octave > 0.0f)) return;
+      const auto add = [&](float unit, float shift, float part) {
+        if (!(part > 0.0f)) return;
         const float down = unit * aspect;
         taps.across[taps.count] = place[j] * down + axisOffset[k];
-        taps.add(place[i] * unit + (axisOffset[i] + shift), faces * share[side] * octave,
+        taps.add(place[i] * unit + (axisOffset[i] + shift), faces * share[side] * part,
                  {placeDx[i] * unit, placeDx[j] * down, placeDy[i] * unit, placeDy[j] * down});
       };
-      add(perUnit, anchor.shift, 1.0f - anchor.coarser);
-      add(0.5f * perUnit, anchor.coarserShift, anchor.coarser);
+      add(perUnit, octave.shift, 1.0f - octave.coarser);
+      add(0.5f * perUnit, octave.coarserShift, octave.coarser);
     }
   }
 }
@@ -143,7 +144,8 @@ void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
   float parts[3];
   strokeParts(anchor, pixel, params, heldNearAxis, parts);
   const float largest = std::max(std::max(parts[0], parts[1]), parts[2]);
-  const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
+  const StrokeOctave& octave = pixel.octave;
+  const float perUnit = 1.0f / (2.0f * pi * octave.mappingDistance);
   for (int k = 0; k < 3; ++k) {
     const float weight = excessShare(parts[k], largest);
     if (!(weight > 0.0f)) continue;
@@ -152,8 +154,8 @@ void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
         taps.add(pixel.place[k] * unit + offset, weight * share,
                  {pixel.placeDx[k] * unit, pixel.toneDx, pixel.placeDy[k] * unit, pixel.toneDy});
     };
-    add(perUnit, axisOffset[k] + anchor.shift, 1.0f - anchor.coarser);
-    add(0.5f * perUnit, axisOffset[k] + anchor.coarserShift, anchor.coarser);
+    add(perUnit, axisOffset[k] + octave.shift, 1.0f - octave.coarser);
+    add(0.5f * perUnit, axisOffset[k] + octave.coarserShift, octave.coarser);
   }
 }
 

@@ -38,6 +38,7 @@ struct BrushPixel {
   float place[3] = {0, 0, 0}, placeDx[3] = {0, 0, 0}, placeDy[3] = {0, 0, 0};
   V3f axes[3];      ///< world; a direction's part along axis k is its product with axes[k]
   float along = 0;  ///< place on the anchor's long side
+  StrokeOctave octave{1, 0, 0, 0};  ///< of held strokes
 };
 
 /// The places on the strip that are mixed at one pixel, with their weights.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "image/real_math.h"
+
 namespace kagefude {
 
 /// Of one pixel: the changes of the surface's position in the world to the next pixel across and
@@ -14,6 +16,21 @@ struct RestChange {
 
 /// Below this, the squared sine between two changes is lost in rounding.
 inline constexpr float leastSlant = 1e-6f;
+
+/// **[ours]** Octaves by which the surface is larger than at rest, each way on average: half the
+/// base-2 logarithm of its area's ratio, within 4 of 0; 0 where either pair spans no plane.
+inline float restStretch(const RestChange& c) {
+  const float* const p = c.across;
+  const float* const q = c.down;
+  const float nx = c.dy * c.ez - c.dz * c.ey, ny = c.dz * c.ex - c.dx * c.ez,
+              nz = c.dx * c.ey - c.dy * c.ex;
+  const float rx = p[1] * q[2] - p[2] * q[1], ry = p[2] * q[0] - p[0] * q[2],
+              rz = p[0] * q[1] - p[1] * q[0];
+  const float seen = nx * nx + ny * ny + nz * nz, rest = rx * rx + ry * ry + rz * rz;
+  if (!(seen > 0.0f) || !(rest > 0.0f)) return 0.0f;
+  const float octaves = 0.25f * (log2Of(seen) - log2Of(rest));
+  return octaves > -4.0f ? (octaves < 4.0f ? octaves : 4.0f) : -4.0f;
+}
 
 /// **[ours]** What directions of the deformed surface are along the axes of its rest: a direction d
 /// of the world has the part x[k] d.x + y[k] d.y + z[k] d.z along axis k. The map carries both

@@ -24,7 +24,7 @@ inline constexpr std::array coverageParameters = {
     number<&CoverageParams::strength>("strength", 0, 1, "",
                                       "How much of the light a full shadow takes away."),
     number<&CoverageParams::bias>(
-        "bias", 0, 10, "pixels",
+        "bias", 0, 10, "rendered pixels",
         "How far surfaces are lifted off themselves before they are tested."),
 };
 

@@ -20,7 +20,7 @@ inline constexpr std::array volumeParameters = {
     plain<&VolumeParams::subpixels>(
         "subpixels", "Counts at 8x8 sub-pixels; off counts once at the pixel's centre."),
     number<&VolumeParams::bias>(
-        "bias", 0, 10, "pixels",
+        "bias", 0, 10, "rendered pixels",
         "How far towards the camera the surface is lifted before counting."),
 };
 

@@ -53,7 +53,7 @@ LabelBox emptyBox(uint32_t label) {
 
 using Boxes = std::unordered_map<uint32_t, LabelBox>;
 
-LabelBox& boxOf(Boxes& boxes, uint32_t label) {
+LabelBox& labelBox(Boxes& boxes, uint32_t label) {
   return boxes.try_emplace(label, emptyBox(label)).first->second;
 }
 
@@ -65,7 +65,7 @@ void addRow(View<const uint32_t> labels, int y, const Ends& ends, Boxes& boxes) 
   for (int x = 0, end; x < labels.width; x = end) {
     for (end = x + 1; end < labels.width && label[end] == label[x];) ++end;
     if (label[x] == 0) continue;
-    LabelBox& box = boxOf(boxes, label[x]);
+    LabelBox& box = labelBox(boxes, label[x]);
     box.pixels += static_cast<uint32_t>(end - x);
     include(box, x, end, y, y + 1);
     const auto [first, last] = ends(x, end);
@@ -90,7 +90,7 @@ std::vector<LabelBox> boxesOf(View<const uint32_t> labels, const RowEnds& ends) 
   Boxes all;
   for (const Boxes& band : bands)
     for (const auto& [label, part] : band) {
-      LabelBox& box = boxOf(all, label);
+      LabelBox& box = labelBox(all, label);
       box.pixels += part.pixels;
       include(box, part.x0, part.x1, part.y0, part.y1);
       includeWanted(box, part.wantedX0, part.wantedX1, part.wantedY0, part.wantedY1);

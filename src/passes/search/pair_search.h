@@ -23,7 +23,7 @@ inline constexpr Parameter pairParameters[] = {
         "search", pairSearchNames,
         "Search the nearest umbra and lit pixel at every penumbra pixel, or at the points of a "
         "grid with bilinear interpolation between them."),
-    number<&PairParams::step>("step", 1, 64, "pixels",
+    number<&PairParams::step>("step", 1, 64, "rendered pixels",
                               "Spacing N of the search grid in x and y, for search = grid."),
     plain<&PairParams::adaptive>(
         "adaptive", "Refine the search grid where the penumbra is narrower than four steps."),

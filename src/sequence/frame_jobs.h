@@ -42,11 +42,12 @@ struct FrameJob {
 ///
 /// UsageError: an output without a frame (or view) place for several frames (views); two outputs
 /// with one name; an output that is one of the inputs. InputError: no file fits; inputs whose
-/// scanned frames differ; frames that are not on disk (named as a range) without skipBadFrames, or
-/// more than 100,000 of them with it. Frames that are asked for and not there cost nothing but
-/// their numbers. `notes`, when given, takes what the user should know and may be right: that the
-/// frames found lie wider apart than one.
-std::vector<FrameJob> planFrames(const PlanRequest& request,
+/// scanned frames differ; frames that are not on disk (named as a range) without skipBadFrames.
+/// Frames that are asked for and not there cost nothing but their numbers: with skipBadFrames the
+/// first 1,000 of them become jobs, the others are left out and named together (of a pattern that
+/// nothing fits, more than that are an InputError). `notes`, when given, takes what the user should
+/// know: that, and that the frames found lie wider apart than one.
+std::vector<FrameJob> planJobs(const PlanRequest& request,
                                  std::vector<std::string>* notes = nullptr);
 
 }  // namespace kagefude

@@ -1,4 +1,4 @@
-#include "sequence/frame_plan.h"
+#include "sequence/frame_jobs.h"
 
 #include <fmt/format.h>
 
@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 using FrameFiles = std::map<int, fs::path>;
 
-/// With --skip-bad-frames each missing frame is a failed one; more of them than this are no bad
-/// frames but a slip.
-constexpr size_t mostBadFrames = 100'000;
+/// With --skip-bad-frames each missing frame is a failed one, a job of its own up to this many; the
+/// others are named together, so that a plan costs what is on disk and not what is asked for.
+constexpr size_t mostMissingJobs = 1000;
 
 std::vector<int> framesOf(const FrameFiles& files) {
   std::vector<int> frames;
@@ -91,12 +91,8 @@ class Planner {
     chooseFrames();
     checkOutputPlaces();
     checkMissing();
-    std::vector<FrameJob> jobs = makeJobs();
-    checkOutputNames(jobs);
-    const ChunkSpan span = chunkSpan(jobs.size(), request_.chunk);
-    jobs.resize(span.last);
-    jobs.erase(jobs.begin(), jobs.begin() + static_cast<ptrdiff_t>(span.first));
-    return jobs;
+    checkOutputNames(makeJobs(chunkSpan(frames_.size() * views_.size(), Chunk{}), nullptr));
+    return makeJobs(chunkSpan(frames_.size() * views_.size(), request_.chunk), notes_);
   }
 
  private:
@@ -186,19 +182,43 @@ class Planner {
     }
   }
 
-  std::vector<FrameJob> makeJobs() const {
+  /// The jobs of a span of all frames and views; of frames that are not there only the first.
+  std::vector<FrameJob> makeJobs(const ChunkSpan& span, std::vector<std::string>* notes) const {
     std::vector<FrameJob> jobs;
-    for (const int frame : frames_)
-      for (size_t v = 0; v < views_.size(); ++v) {
-        FrameJob job;
-        job.frame = frame;
-        job.view = views_[v];
-        for (size_t i = 0; i < request_.inputs.size(); ++i) addInput(i, v, &job);
-        for (const FramePattern& output : request_.outputs)
-          job.outputs.push_back(output.path(frame, job.view));
-        jobs.push_back(std::move(job));
+    std::vector<int> left;
+    size_t missing = 0;
+    for (size_t place = span.first; place < span.last; ++place) {
+      const int frame = frames_[place / views_.size()];
+      const size_t view = place % views_.size();
+      if (missing >= mostMissingJobs && lacks(frame, view)) {
+        left.push_back(frame);
+        continue;
       }
+      jobs.push_back(makeJob(frame, view));
+      if (jobs.back().missing) ++missing;
+    }
+    const size_t more = left.size();
+    if (notes && more > 0)
+      notes->push_back(
+          fmt::format("beyond {} missing frames {} more are not there and are left out: {}",
+                      missing, more, describeFrames(std::move(left))));
     return jobs;
+  }
+
+  FrameJob makeJob(int frame, size_t view) const {
+    FrameJob job;
+    job.frame = frame;
+    job.view = views_[view];
+    for (size_t i = 0; i < request_.inputs.size(); ++i) addInput(i, view, &job);
+    for (const FramePattern& output : request_.outputs)
+      job.outputs.push_back(output.path(frame, job.view));
+    return job;
+  }
+
+  bool lacks(int frame, size_t view) const {
+    for (size_t i = 0; i < request_.inputs.size(); ++i)
+      if (request_.inputs[i].hasFrame() && !filesOf(i, view).contains(frame)) return true;
+    return false;
   }
 
   void addInput(size_t input, size_t view, FrameJob* job) const {
@@ -235,7 +255,8 @@ class Planner {
     const FrameFiles& files = filesOf(input, view);
     const std::vector<int> missing = difference(frames_, files);
     if (missing.empty()) return;
-    if (request_.skipBadFrames && missing.size() <= mostBadFrames) return;
+    const bool slip = files.empty() && missing.size() > mostMissingJobs;
+    if (request_.skipBadFrames && !slip) return;
     if (files.empty())
       throw InputError(fmt::format("no file fits {}; {}", quoted(pattern, views_[view]),
                                    folderHint(pattern.path(frames_.front(), views_[view]))));
@@ -279,7 +300,7 @@ std::string FrameJob::name() const {
   return view.empty() ? fmt::format("frame {}", frame) : fmt::format("frame {} {}", frame, view);
 }
 
-std::vector<FrameJob> planFrames(const PlanRequest& request, std::vector<std::string>* notes) {
+std::vector<FrameJob> planJobs(const PlanRequest& request, std::vector<std::string>* notes) {
   return Planner(request, notes).run();
 }
 
