@@ -4,13 +4,16 @@
 Masks are rendered in plain white. Where every material is opaque one white override does it. Where
 some are not, the override would make cards of leaves and boxes of fog; then each material keeps its
 own output, and switches to white where a view layer says so: the part that is seen through is left
-out, displacement stays, volumes go. Cycles folds the switch away, so that layers which do not say so
-render as before, bit for bit.
+out, displacement stays. Volumes go from the data as well: a ray that scatters in fog ends there, and
+the surface behind it would be missing from its pixel. Cycles folds the switches away, so that layers
+which do not say so render as before, bit for bit.
 """
 
 from . import compat
 
-SWITCH = "kagefude_mask"     # custom property of a view layer, and the attribute that reads it
+# Custom properties of a view layer, and the attributes that read them.
+SWITCH = "kagefude_mask"
+CLEAR = "kagefude_clear"     # no fog
 THROUGH = "kagefude through"  # output of node groups: share of light that passes
 MOST_LEAVES = 128             # transparent surfaces behind each other
 # Data passes of a view layer take a surface from an alpha of one half on; so do masks.
@@ -50,8 +53,8 @@ def caster_notes(objects):
 def keep_what_blocks(view_layers, override, objects):
     """Let the view layers that carry `override` show what blocks light; returns notes.
 
-    `objects` are all that may render. Where none of their materials blocks otherwise than a plain
-    surface, all stays as it is.
+    No layer shows fog. `objects` are all that may render. Where none of their materials blocks
+    otherwise than a plain surface, all stays as it is.
     """
     materials = {slot.material for item in objects for slot in item.material_slots
                  if slot.material}
@@ -61,6 +64,7 @@ def keep_what_blocks(view_layers, override, objects):
     for material in materials:
         _add_switch(material)
     for view_layer in view_layers:
+        view_layer[CLEAR] = 1.0
         if view_layer.material_override == override:
             view_layer.material_override = None
             view_layer[SWITCH] = 1.0
@@ -100,13 +104,12 @@ def _add_switch(material):
     output = tree.get_output_node('CYCLES') if material.use_nodes and tree else None
     if output is None:
         return
-    ask = tree.nodes.new('ShaderNodeAttribute')
-    ask.attribute_type, ask.attribute_name = 'VIEW_LAYER', SWITCH
+    ask = _ask(tree, SWITCH)
     surface = output.inputs["Surface"]
     through = _through(tree, surface) if surface.is_linked else 1.0
     _switch(tree, ask, surface, _mask_surface(tree, through))
     if output.inputs["Volume"].is_linked:
-        _switch(tree, ask, output.inputs["Volume"], None)
+        _switch(tree, _ask(tree, CLEAR), output.inputs["Volume"], None)
     bumps = output.inputs["Displacement"]
     if bumps.is_linked and not compat.displaces(material):
         # They bend shading only, and a mask knows no shading.
@@ -115,6 +118,12 @@ def _add_switch(material):
         tree.links.new(bumps.links[0].from_socket, flat.inputs[0])
         tree.links.new(_math(tree, 'SUBTRACT', 1.0, ask.outputs["Fac"]), flat.inputs["Scale"])
         tree.links.new(flat.outputs[0], bumps)
+
+
+def _ask(tree, name):
+    node = tree.nodes.new('ShaderNodeAttribute')
+    node.attribute_type, node.attribute_name = 'VIEW_LAYER', name
+    return node
 
 
 def _switch(tree, ask, place, instead):

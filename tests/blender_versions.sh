@@ -102,6 +102,10 @@ build_program() {
     within "$1" nice cmake --build /build/release
 }
 
+comped_tests() {
+  within "$1" env KAGEFUDE=/build/release/kagefude python3 -m unittest discover -s tests/blender_export -p 'comped_*.py'
+}
+
 unit_tests() { within "$1" ctest --test-dir /build/release --output-on-failure -j2; }
 
 # All that can be done with the Blender of PLACE; what depends on a failed step is left out.
@@ -118,7 +122,10 @@ check_place() {
       step "$place" "comping $name" comp_example "$place" "$name" || true
   done
   if [ "$place" != here ] && [ -n "$build" ]; then
-    step "$place" "building" build_program "$place" && step "$place" "unit tests" unit_tests "$place" || true
+    if step "$place" "building" build_program "$place"; then
+      step "$place" "comped tests" comped_tests "$place" || true
+      step "$place" "unit tests" unit_tests "$place" || true
+    fi
   fi
 }
 

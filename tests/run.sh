@@ -19,6 +19,7 @@ cmake --build --preset release
 export KAGEFUDE_LONG_TESTS=$long
 heading "exporter"
 python3 -m unittest discover -s tests/blender_export -p 'test_*.py'
+python3 -m unittest discover -s tests/blender_export -p 'comped_*.py'
 heading "unit tests: each in a process of its own, then all in one in a new order"
 log=build/release/unit_tests.log
 ctest --preset release -j2 >"$log" || { cat "$log"; exit 1; }

@@ -52,6 +52,13 @@ def blender(*words):
     return subprocess.run([BLENDER, "-b", *words], capture_output=True, text=True, timeout=600)
 
 
+def blender_says(expression):
+    """Whether an expression about bpy holds in the installed Blender."""
+    said = blender("--factory-startup", "--python-expr",
+                   f"import bpy; print('answer', bool({expression}))").stdout
+    return "answer True" in said
+
+
 @unittest.skipUnless(BLENDER, "Blender is not installed")
 class BlenderCase(unittest.TestCase):
     def setUp(self):

@@ -61,7 +61,7 @@ card.data.materials.append(card.active_material.copy())
 
 FOG = """
 fog = leaf.nodes.new('ShaderNodeVolumePrincipled')
-fog.inputs["Density"].default_value = 0.01
+fog.inputs["Density"].default_value = 3.0
 leaf.links.new(fog.outputs[0], output.inputs["Volume"])
 leaf.links.remove(output.inputs["Surface"].links[0])
 card.data.materials[0] = GREY
@@ -120,7 +120,13 @@ class Blockers(BlenderCase):
         self.check_shadow(MOVED, 1, (-1, 1), (1, 3))
 
     def test_fog_is_no_box_and_opaque_things_keep_their_masks_beside_it(self):
-        mask, _, _, notes = self.export_masks(FOG)
+        mask, _, pixels, notes = self.export_masks(FOG)
+        # Nor does it hide or darken what the data shows behind it.
+        self.assertLess(max(abs(z) for row in pixels["data.Position.Z"] for z in row), 1e-5)
+        self.assertEqual(len({z for row in pixels["data.Depth.V"] for z in row}), 1)
+        reds = {red for row in pixels["data.DiffCol.R"] for red in row}
+        # A newer Principled shader keeps a part that falls with the angle for its gloss.
+        self.assertTrue(0.48 < min(reds) and max(reds) < 0.501)
         self.assertEqual({value for row in mask for value in row}, {1.0})
         self.assertIn("volumes cast no shadow in the masks: Fog", notes)
         beside = FOG.replace("bpy.data.objects.remove(card)", "")

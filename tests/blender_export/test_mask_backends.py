@@ -3,7 +3,7 @@
 
 import unittest
 
-from blender_case import BlenderCase, blender
+from blender_case import BlenderCase, blender_says
 
 # A ball shaded smooth, boxes, a thin rod and all kinds of light; one light moves in frame 2. The
 # camera stands askew, or a shadow's edge would run along a whole row of pixels' centres.
@@ -24,13 +24,6 @@ light("Sun", 'SUN', (0, 0, 5), (40, 0, -60), energy=2, angle=math.radians(6))
 light("Area", 'AREA', (0, 3.5, 2.0), (-62, 0, 0), energy=300, shape='RECTANGLE', size=1.5, size_y=0.3)
 tools.camera((0.23, -6.5, 4.2), (0.0, 0.0, 0.5), 50)
 """
-
-
-def blender_says(expression):
-    """Whether an expression about bpy holds in the installed Blender."""
-    said = blender("--factory-startup", "--python-expr",
-                   f"import bpy; print('answer', bool({expression}))").stdout
-    return "answer True" in said
 
 
 def bpy_has_light_linking():
