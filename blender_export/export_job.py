@@ -47,6 +47,7 @@ class ExportJob:
         self.data = export_scenes.DataScene(scene, subjects)
         backends = MaskBackends(options.masks_by, self.data, shot.all_geometry())
         self.rigs = self._rigs(lights, backends)
+        self.data.add_rest(shot.all_geometry())
         self.data.finish()
         self.writer, more = frame_image.shot_writer(
             scene, view_layer, self.data, [rig.middle_mask for rig in self.rigs if rig.masked])

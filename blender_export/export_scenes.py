@@ -13,10 +13,11 @@ from dataclasses import dataclass
 
 import bpy
 
-from . import compat, sight_nodes
+from . import compat, rest_pass, sight_nodes
 from .errors import ExportError
 
-DATA_PASSES = ("Normal", "Position", "Depth", "IndexOB", "IndexMA", "UV", "Vector", "DiffCol")
+DATA_PASSES = ("Normal", "Position", "Depth", "IndexOB", "IndexMA", "UV", "Vector", "DiffCol",
+               rest_pass.REST, rest_pass.RANDOM)
 NOT_BEAUTY = {"Alpha", "Depth", "Mist", "Position", "Normal", "UV", "Vector", "IndexOB", "IndexMA",
               "Shadow"}
 PREFIX = "kagefude "
@@ -156,6 +157,7 @@ class DataScene:
         self._lamps = {data.name: []}
         self._sight, self._sight_layer, self._sight_names = None, data.name, []
         self._group_layer = None
+        self._rest_aovs = []
 
     @property
     def scenes(self):
@@ -194,6 +196,10 @@ class DataScene:
         # A sample picks one lamp, and samples in powers of two are spread evenly over the lamps.
         self._group_layer.samples = 1 << (2 * len(self._lamps["groups"]) - 1).bit_length()
         self.layers[name] = Reading(self._sampled, "groups", f"Combined_{group}", 0.0)
+
+    def add_rest(self, objects):
+        """Let the data layer hold where surfaces rest (see rest_pass)."""
+        self._rest_aovs = rest_pass.prepare(objects)
 
     def add_sight(self, ask, objects):
         """Let materials write masks into AOVs; returns their Sight.
@@ -260,9 +266,9 @@ class DataScene:
         # Layers that share their scene's data between them must have the same AOVs, or Cycles
         # writes some into others (before 5.2).
         for view_layer in self.scene.view_layers:
-            for aov in self._sight_names:
+            for name, kind in self._rest_aovs + [(aov, 'VALUE') for aov in self._sight_names]:
                 made = view_layer.aovs.add()
-                made.name, made.type = aov, 'VALUE'
+                made.name, made.type = name, kind
 
     def _add_depth_layer(self):
         """Last, and alike to the layer before it, or the geometry would be read again."""

@@ -6,7 +6,7 @@ import os
 
 from mathutils import Vector
 
-from . import schema_check
+from . import rest_pass, schema_check
 from .errors import ExportError
 from .light_view import rigid_inverse
 from .murmur3 import cryptomatte_hex
@@ -34,6 +34,8 @@ def describe_objects(depsgraph, names, unpainted=()):
     for instance in depsgraph.object_instances:
         item = instance.object
         name = names.of(item)
+        if name in entries:
+            entries[name]["instanced"] = True
         if item.type not in GEOMETRY or name in entries or item.hide_render \
                 or (item.type == 'MESH' and not item.data.polygons):
             continue
@@ -41,6 +43,8 @@ def describe_objects(depsgraph, names, unpainted=()):
         low, high = (tuple(pick(corner[axis] for corner in item.bound_box) for axis in range(3))
                      for pick in (min, max))
         entry = _object_entry(item, names, matrix, low, high)
+        if instance.is_instance:
+            entry["instanced"] = True
         if item.original in unpainted:
             entry["painted"] = False
         entries[name] = entry
@@ -52,13 +56,18 @@ def describe_objects(depsgraph, names, unpainted=()):
 def _object_entry(item, names, matrix, low, high):
     middle = (Vector(low) + Vector(high)) * 0.5
     marks = _reference_marks(item)
-    return {
+    entry = {
         "name": names.of(item), "index": item.pass_index, "crypto": cryptomatte_hex(item.name),
         "world_from_object": rows(matrix), "bounds": {"min": numbers(low), "max": numbers(high)},
         "reference_point": marks[0] if marks else numbers(matrix @ middle),
         "reference_points": marks,
-        "materials": [names.of(slot.material) for slot in item.material_slots if slot.material],
+        "materials": [names.of(slot.material) for slot in item.material_slots
+                      if slot.material and slot.material.name != rest_pass.PLAIN],
         "flat": is_flat(low, high)}
+    rest = rest_pass.bounds(item)
+    if rest:
+        entry["rest_bounds"] = {"min": numbers(rest[0]), "max": numbers(rest[1])}
+    return entry
 
 
 def _reference_marks(item):

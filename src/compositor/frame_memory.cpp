@@ -87,6 +87,10 @@ size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
   }
   size_t floats = 4 * (3 + 3);
   if (plan.albedo) floats += 4 * 3;
+  if (plan.rest) floats += 4 * (4 + 3);  // and the places that it gives
+  if (plan.uv) floats += 4 * 2;
+  if (plan.uv && !plan.rest) floats += 4 * 3;
+  if (plan.instanceRandom) floats += 4;
   if (plan.beauty) floats += 4 * 4;
   if (!plan.lines.empty()) floats += 4 * 4;
   const size_t ids = plan.materialId ? 2 * ofIds : ofIds;

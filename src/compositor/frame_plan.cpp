@@ -132,6 +132,24 @@ void planMaterials(const AovNames& names, FramePlan& plan) {
       plan.materialNames.emplace(material.cryptoId, material.name);
 }
 
+bool anyBrushOn(const Look& look, BrushParams::Ground ground) {
+  return look.passes.brush.ground == ground ||
+         std::any_of(look.styles.begin(), look.styles.end(),
+                     [&](const StyleLook& style) { return style.passes.brush.ground == ground; });
+}
+
+/// Rest positions are used where there are any; UVs that a style asks for must be there.
+void planGrounds(const Look& look, const AovNames& names, FramePlan& plan) {
+  if (anyBrushOn(look, BrushParams::Ground::rest))
+    plan.rest = findAov(plan.image, names, AovKind::rest);
+  if (anyBrushOn(look, BrushParams::Ground::uv))
+    plan.uv = requireAov(plan.image, names, AovKind::uv);
+  if (plan.rest) {
+    plan.restInWorld = isWorldRest(names, plan.rest->name);
+    plan.instanceRandom = findAov(plan.image, names, AovKind::instanceRandom);
+  }
+}
+
 /// Whether two lights are so alike that another one may lead the strokes in the next frame.
 bool leadMayChange(const Look& look, const FramePlan& plan) {
   if (!plan.sidecar || plan.sidecar->shot || plan.lights.size() < 2) return false;
@@ -191,6 +209,7 @@ FramePlan planFrame(const Look& asked, const std::filesystem::path& path, int fr
   if (plan.sidecar && !plan.sidecar->linesLayer.empty())
     for (const char* channel : {"R", "G", "B", "A"})
       plan.lines.push_back(requireLinesChannel(plan, channel));
+  planGrounds(look, names, plan);
   planObjects(names, plan);
   if (anyStyleHas(look, &StyleParams::material)) planMaterials(names, plan);
   nameObjectsFromSidecar(plan);

@@ -23,6 +23,8 @@ struct FramePlan {
   Aov position, normal;
   VectorSpaces spaces;
   std::optional<Aov> albedo, beauty;
+  std::optional<Aov> rest, uv, instanceRandom;  ///< only where strokes ask for them
+  bool restInWorld = false;                     ///< else in each object's own space
   std::vector<std::string> lines;  ///< channels R, G, B, A of drawn lines; empty for none
   std::optional<Aov> depth;        ///< only for outlines where no camera is known
   std::optional<Aov> coverage;     ///< Cryptomatte of objects whose coverage draws the edges

@@ -26,6 +26,9 @@ struct FramePlanes {
   Vec3Plane normal;    ///< world, unit
   Labels objectId;     ///< 0 = background
   Labels materialId;
+  Vec3Plane rest;  ///< as the pass has it; x is NaN where it holds nothing
+  Floats u, v;     ///< UVs
+  Floats instanceRandom;
   Vec3Plane albedo;
   Vec3Plane beauty;
   Floats alpha;

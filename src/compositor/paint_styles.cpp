@@ -41,7 +41,7 @@ BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<
   const auto paint = [&](View<const uint16_t> index, BrushParams params, bool keepOthers) {
     params.diagnostics = diagnostics;
     applyBrush(planes.position, planes.normal, tone, index, styled.anchors, strips.strips(), params,
-               result, keepOthers);
+               result, keepOthers, styled.rest);
   };
   const std::vector<size_t> groups = groupsOf(styled.brushes);
   const bool oneGroup = std::all_of(groups.begin(), groups.end(), [](size_t g) { return g == 0; });

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "base/error.h"
@@ -93,6 +94,21 @@ void clearOutside(const FramePlan& plan, FramePlanes& planes) {
   });
 }
 
+/// Nothing is held where a rest pass says nothing: not finite, no alpha, or 0, as renderers leave
+/// it for what has no such attribute.
+void markWithoutRest(View<const float> alpha, FramePlanes& planes) {
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x) {
+        const V3f p = planes.rest.view()(x, y);
+        const float sum = p.x + p.y + p.z;
+        const bool held = sum - sum == 0.0f && p != V3f(0.0f);
+        if (!held || (!alpha.empty() && !(alpha(x, y) > 0.0f)))
+          planes.rest.x(x, y) = std::numeric_limits<float>::quiet_NaN();
+      }
+  });
+}
+
 /// A reading that the look can set stops the frame; what nothing explains is said.
 void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
   const SpaceDoubt doubt =
@@ -125,6 +141,17 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   requestVector(reader, plan.position, planes.position);
   requestVector(reader, plan.normal, planes.normal);
   if (plan.albedo) requestVector(reader, *plan.albedo, planes.albedo);
+  Floats restAlpha;
+  if (plan.rest) {
+    requestVector(reader, *plan.rest, planes.rest);
+    if (plan.rest->channels.size() > 3) reader.floats(plan.rest->channels[3], restAlpha);
+  }
+  if (plan.uv) {
+    reader.floats(plan.uv->channels.at(0), planes.u);
+    reader.floats(plan.uv->channels.at(1), planes.v);
+  }
+  if (plan.instanceRandom)
+    reader.floats(plan.instanceRandom->channels.at(0), planes.instanceRandom);
   if (plan.beauty) {
     requestVector(reader, *plan.beauty, planes.beauty);
     if (plan.beauty->channels.size() > 3) reader.floats(plan.beauty->channels[3], planes.alpha);
@@ -175,6 +202,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   };
   if (std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene))
     planes.casting = std::make_shared<const CastingScene>(readCastingScene(plan));
+  if (plan.rest) markWithoutRest(restAlpha, planes);
   convertToWorld(plan.spaces, plan.image, planes.position, planes.normal);
   clearOutside(plan, planes);
   planes.badBeauty = clearNonFiniteColour(planes.beauty, planes.alpha.view());

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/glob.h"
 #include "base/nearest_name.h"
+#include "compositor/stroke_grounds.h"
 
 namespace kagefude {
 namespace {
@@ -168,17 +169,24 @@ bool movesWithView(const StyleLook& style, const SceneParams& scene) {
   return !placed || !sized;
 }
 
+/// Bounds of an object as it rests where its strokes lie there, so that no pose moves or sizes
+/// them.
+void takeBounds(const SidecarObject& object, bool atRest, BrushSubject& subject) {
+  const bool rest = atRest && object.restBounds;
+  subject.boundsMin = V3f(rest ? (*object.restBounds)[0] : object.boundsMin);
+  subject.boundsMax = V3f(rest ? (*object.restBounds)[1] : object.boundsMax);
+}
+
 BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const FramePlan& plan,
                        const FrameLight& light, const Surface& surface, const VisibleBounds& seen,
-                       std::set<std::string>& unbounded) {
+                       bool atRest, std::set<std::string>& unbounded) {
   const StyleParams& style = styled.style;
   BrushSubject subject;
   subject.sceneRadius = light.subjectRadius;
   const SidecarObject* const object = plan.findObject(surface.object);
   if (object) {
     subject.worldFromObject = object->worldFromObject;
-    subject.boundsMin = V3f(object->boundsMin);
-    subject.boundsMax = V3f(object->boundsMax);
+    takeBounds(*object, atRest, subject);
     subject.hasBounds = true;
     subject.flat = object->flat;
   } else {
@@ -222,6 +230,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
   StyledSurfaces result;
   const StyleLook fallback{{}, look.passes};
   std::set<std::string> unbounded;
+  StrokeGrounds grounds(plan, planes, index.plane, index.surfaces.size());
   result.fitting.resize(look.styles.size());
   for (const Surface& surface : index.surfaces)
     for (size_t i = 0; i < look.styles.size(); ++i)
@@ -230,10 +239,16 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     const StyleLook* found = styleFor(look, plan, index.surfaces[number - 1]);
     const StyleLook& style = found ? *found : fallback;
     const FrameLight& light = lightFor(plan, style.style);
-    BrushSubject subject = subjectOf(style, look.scene, plan, light, index.surfaces[number - 1],
-                                     seen.empty() ? VisibleBounds{} : seen[number - 1], unbounded);
+    const uint32_t object = index.surfaces[number - 1].object;
+    BrushParams brush = style.passes.brush;
+    const bool atRest = grounds.choose(number, object, brush);
+    BrushSubject subject =
+        subjectOf(style, look.scene, plan, light, index.surfaces[number - 1],
+                  seen.empty() ? VisibleBounds{} : seen[number - 1], atRest, unbounded);
     subject.strip = strips.indexOf(style.style.strip);
-    result.anchors.push_back(makeBrushAnchor(subject, light.light, style.passes.brush));
+    result.anchors.push_back(makeBrushAnchor(subject, light.light, brush));
+    result.anchors.back().atRest = atRest;
+    if (atRest) grounds.lay(number, subject, result.anchors.back());
     result.brushes.push_back(style.passes.brush);
     result.tones.push_back(style.passes.tone);
     result.multiplies.push_back(multipliesColour(style.style));
@@ -241,7 +256,9 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     const auto colour = line.empty() ? std::nullopt : std::optional(V3f(line[0], line[1], line[2]));
     result.outlines.push_back({colour, style.passes.outline});
   }
+  result.rest = grounds.places(planes, index.plane);
   noteUnbounded(unbounded, warnings);
+  grounds.noteMissing(warnings);
   result.anchorIndex = std::move(index.plane);
   return result;
 }

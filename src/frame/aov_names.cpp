@@ -31,9 +31,14 @@ constexpr std::string_view shadows[] = {"shadow", "rawshadow", "shadows"};
 constexpr std::string_view cryptoObjects[] = {"cryptoobject", "cryptomatteobject"};
 constexpr std::string_view cryptoMaterials[] = {"cryptomaterial", "cryptomattematerial"};
 
+// Houdini, Karma; Arnold, RenderMan, V-Ray's usual user element; MoonRay.
+constexpr std::string_view rests[] = {"rest",  "restposition", "pref",  "refp",
+                                      "wpref", "worldrest",    "posref"};
+constexpr std::string_view uvs[] = {"uv", "st", "texcoord"};
+constexpr std::string_view instanceRandoms[] = {"instancerandom", "objectrandom"};
+
 // Passes that serve no purpose here, but must be told from layers and views.
 constexpr std::string_view otherPasses[] = {"mist",
-                                            "uv",
                                             "noisyimage",
                                             "denoisingnormal",
                                             "denoisingalbedo",
@@ -93,16 +98,24 @@ Names namesOf(AovKind kind) {
       return cryptoObjects;
     case AovKind::cryptoMaterial:
       return cryptoMaterials;
+    case AovKind::rest:
+      return rests;
+    case AovKind::uv:
+      return uvs;
+    case AovKind::instanceRandom:
+      return instanceRandoms;
     case AovKind::surface:
       return {};
   }
   return {};
 }
 
-constexpr std::array<AovKind, 11> searchedKinds = {
-    AovKind::position,      AovKind::normal,       AovKind::depth,         AovKind::objectIndex,
-    AovKind::materialIndex, AovKind::vector,       AovKind::albedo,        AovKind::beauty,
-    AovKind::shadow,        AovKind::cryptoObject, AovKind::cryptoMaterial};
+constexpr std::array<AovKind, 14> searchedKinds = {
+    AovKind::position,     AovKind::normal,         AovKind::depth,
+    AovKind::objectIndex,  AovKind::materialIndex,  AovKind::vector,
+    AovKind::albedo,       AovKind::beauty,         AovKind::shadow,
+    AovKind::cryptoObject, AovKind::cryptoMaterial, AovKind::rest,
+    AovKind::uv,           AovKind::instanceRandom};
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 

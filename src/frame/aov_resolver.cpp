@@ -24,7 +24,7 @@ struct KindRow {
 };
 
 constexpr size_t any = 4096;
-constexpr std::array<KindRow, 12> kindRows = {{
+constexpr std::array<KindRow, 15> kindRows = {{
     {"Position", "position", 3, 3, &AovNames::position},
     {"Normal", "normal", 3, 3, &AovNames::normal},
     {"Depth", "depth", 1, 1, &AovNames::depth},
@@ -37,6 +37,9 @@ constexpr std::array<KindRow, 12> kindRows = {{
     {"Cryptomatte Object", "crypto_object", 2, any, &AovNames::cryptoObject},
     {"Cryptomatte Material", "crypto_material", 2, any, &AovNames::cryptoMaterial},
     {"surface id", "surface", 1, 1, &AovNames::surface},
+    {"Rest", "rest", 3, 4, &AovNames::rest},
+    {"UV", "uv", 2, 2, &AovNames::uv},
+    {"Instance Random", "instance_random", 1, 1, &AovNames::instanceRandom},
 }};
 
 const KindRow& rowOf(AovKind kind) { return kindRows[static_cast<size_t>(kind)]; }
@@ -251,6 +254,11 @@ std::optional<Aov> findAov(const ImageFile& file, const AovNames& names, AovKind
   if (!found && beauty && layer.value_or("").empty()) found = firstPicture(file, candidates);
   if (!found) return std::nullopt;
   return finish(file, kind, *found);
+}
+
+bool isWorldRest(const AovNames& names, std::string_view pass) {
+  if (names.restSpace != RestSpace::automatic) return names.restSpace == RestSpace::world;
+  return plainName(pass.substr(pass.rfind('.') + 1)).starts_with('w');
 }
 
 Aov requireAov(const ImageFile& file, const AovNames& names, AovKind kind) {

@@ -22,13 +22,19 @@ enum class AovKind {
   shadow,
   cryptoObject,
   cryptoMaterial,
-  surface
+  surface,
+  rest,
+  uv,
+  instanceRandom
 };
 
 /// How a pass of vectors is to be read: `automatic` is world space, and doubted where the
 /// positions' slopes and the normals do not agree.
 enum class VectorSpace { automatic, world, camera };
 inline constexpr std::string_view vectorSpaceNames[] = {"auto", "world", "camera"};
+/// `automatic` is world space for names that say so (__WPref), else the object's.
+enum class RestSpace { automatic, object, world };
+inline constexpr std::string_view restSpaceNames[] = {"auto", "object", "world"};
 enum class NormalRange { automatic, symmetric, unit };
 inline constexpr std::string_view normalRangeNames[] = {"auto", "-1..1", "0..1"};
 
@@ -42,6 +48,8 @@ struct AovNames {
   std::string position, normal, depth, objectIndex, materialIndex, vector, albedo, beauty, shadow;
   std::string cryptoObject, cryptoMaterial;
   std::string surface;  ///< surface ids made elsewhere; has no name of its own to be found by
+  std::string rest, uv, instanceRandom;
+  RestSpace restSpace = RestSpace::automatic;
   VectorSpace positionSpace = VectorSpace::automatic;
   VectorSpace normalSpace = VectorSpace::automatic;
   NormalRange normalRange = NormalRange::automatic;
@@ -68,6 +76,13 @@ inline constexpr Parameter aovNamesParameters[] = {
     plain<&AovNames::cryptoObject>("crypto_object", "Cryptomatte of objects"),
     plain<&AovNames::cryptoMaterial>("crypto_material", "Cryptomatte of materials"),
     plain<&AovNames::surface>("surface", "surface ids made elsewhere; taken instead of objects"),
+    plain<&AovNames::rest>("rest", "positions as they are while nothing deforms the surface"),
+    choice<&AovNames::restSpace>("rest_space", restSpaceNames,
+                                 "space of the rest positions; auto takes world for names such as "
+                                 "__WPref, else the object's"),
+    plain<&AovNames::uv>("uv", "UV pass, for brush.ground = \"uv\""),
+    plain<&AovNames::instanceRandom>("instance_random",
+                                     "a number that differs from instance to instance"),
     choice<&AovNames::positionSpace>("position_space", vectorSpaceNames,
                                      "space of the positions; auto takes world and stops where "
                                      "they are seen to be the camera's"),
@@ -119,6 +134,9 @@ std::vector<std::string> listLayers(const std::vector<PassChannels>& passes);
 /// when an override names nothing, when layers stay ambiguous, or when a pass has too few channels.
 /// Channels beyond what the kind needs are left out.
 std::optional<Aov> findAov(const ImageFile& file, const AovNames& names, AovKind kind);
+
+/// Whether a rest pass of that name (layer.pass) is in world space.
+bool isWorldRest(const AovNames& names, std::string_view pass);
 
 /// As findAov, but a missing pass is an InputError that lists layers and passes, names the nearest,
 /// and says what to turn on and which key of the look names it.

@@ -15,10 +15,12 @@
 namespace kagefude {
 namespace {
 
-constexpr std::array<AovKind, 11> shownKinds = {
-    AovKind::position,      AovKind::normal,       AovKind::depth,         AovKind::objectIndex,
-    AovKind::materialIndex, AovKind::vector,       AovKind::albedo,        AovKind::beauty,
-    AovKind::shadow,        AovKind::cryptoObject, AovKind::cryptoMaterial};
+constexpr std::array<AovKind, 14> shownKinds = {
+    AovKind::position,     AovKind::normal,         AovKind::depth,
+    AovKind::objectIndex,  AovKind::materialIndex,  AovKind::vector,
+    AovKind::albedo,       AovKind::beauty,         AovKind::shadow,
+    AovKind::cryptoObject, AovKind::cryptoMaterial, AovKind::rest,
+    AovKind::uv,           AovKind::instanceRandom};
 
 void add(Inspection& inspection, FindingKind kind, std::string what, std::string remedy) {
   inspection.findings.push_back({kind, std::move(what), std::move(remedy)});

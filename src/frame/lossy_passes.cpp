@@ -13,15 +13,16 @@ namespace kagefude {
 namespace {
 
 bool isData(const PassChannels& pass) {
-  constexpr std::array<AovKind, 6> data = {AovKind::position,      AovKind::normal,
-                                           AovKind::depth,         AovKind::objectIndex,
-                                           AovKind::materialIndex, AovKind::vector};
+  constexpr std::array<AovKind, 7> data = {
+      AovKind::position,    AovKind::normal,        AovKind::rest,  AovKind::depth,
+      AovKind::objectIndex, AovKind::materialIndex, AovKind::vector};
   return std::any_of(data.begin(), data.end(),
                      [&](AovKind kind) { return detail::aliasRank(kind, pass.pass) >= 0; });
 }
 
 bool needsAllBits(const PassChannels& pass) {
   return detail::aliasRank(AovKind::position, pass.pass) >= 0 ||
+         detail::aliasRank(AovKind::rest, pass.pass) >= 0 ||
          detail::aliasRank(AovKind::objectIndex, pass.pass) >= 0;
 }
 

@@ -164,6 +164,9 @@ SidecarObject readObject(const JsonPlace& json) {
   object.worldFromObject = json["world_from_object"].matrix();
   object.boundsMin = json["bounds"]["min"].vector();
   object.boundsMax = json["bounds"]["max"].vector();
+  if (json.has("rest_bounds"))
+    object.restBounds = {json["rest_bounds"]["min"].vector(), json["rest_bounds"]["max"].vector()};
+  if (json.has("instanced")) object.instanced = json["instanced"].boolean();
   object.referencePoint = json["reference_point"].vector();
   if (json.has("reference_points")) {
     for (const JsonPlace& point : json["reference_points"].list()) {

@@ -84,8 +84,11 @@ struct SidecarObject {
   uint32_t cryptoId = 0;  ///< Cryptomatte id; from the name when not given
   Transform worldFromObject;
   V3d boundsMin{0, 0, 0}, boundsMax{0, 0, 0};  ///< object space
-  V3d referencePoint{0, 0, 0};                 ///< world space; the first of the next, if any
-  std::vector<V3d> referencePoints;            ///< world space; all that the artist marked
+  /// Object space, of the surface while nothing deforms it; absent: not given.
+  std::optional<std::array<V3d, 2>> restBounds;
+  bool instanced = false;            ///< shown more than once, under this one name
+  V3d referencePoint{0, 0, 0};       ///< world space; the first of the next, if any
+  std::vector<V3d> referencePoints;  ///< world space; all that the artist marked
   std::vector<std::string> materials;
   bool painted = true;  ///< false: cut or see-through, so the beauty stands there
   bool flat = false;    ///< thinnest extent below 2 % of the largest

@@ -54,6 +54,8 @@ class Sweep : public ::testing::Test {
     frame.setVector("Normal", x, y, n);
     const bool level = py <= 1.5f && px <= 2;
     frame.plane("IndexOB.X")(x, y) = ball ? 1.0f : level ? 2.0f : 3.0f;
+    frame.plane("UV.U")(x, y) = float(x + 1) / width;
+    frame.plane("UV.V")(x, y) = float(y + 1) / height;
     for (const char* name : {"DiffCol.R", "DiffCol.G", "DiffCol.B"})
       frame.plane(name)(x, y) = 0.25f + 0.5f * float(x) / width;
   }
@@ -185,6 +187,8 @@ const std::map<std::string, std::string> companions = {
     {"brush.blend_width", "brush.mapping = \"polar\"\n"},
     {"brush.pole_fade", "brush.mapping = \"polar\"\n"},
     {"brush.strip_pixels", "brush.size = \"screen\"\n"},
+    {"brush.uv_size", "brush.ground = \"uv\"\n"},
+    {"brush.stretch", "brush.ground = \"uv\"\nbrush.uv_size = 0.01\n"},
     {"brush.point_blend", "brush.points = 4\nbrush.mapping = \"polar\"\n"},
     {"brush.points", "brush.mapping = \"polar\"\n"},
     {"brush.cross_fade", "brush.mapping = \"polar\"\n"},

@@ -52,6 +52,21 @@ TEST_F(AovResolver, ChannelsComeInComponentOrderInAnyCase) {
             (Names{"b.Normal.x", "b.Normal.y", "b.Normal.z"}));
 }
 
+TEST_F(AovResolver, KnowsRestPositionsAndTheirSpace) {
+  for (const char* name : {"Rest", "Pref", "__Pref", "rest", "ref_P", "rest_position"}) {
+    EXPECT_EQ(requireAov(fileOf(xyz(name)), {}, AovKind::rest).name, name);
+    EXPECT_FALSE(isWorldRest({}, name)) << name;
+  }
+  EXPECT_EQ(requireAov(fileOf(xyz("L.__WPref")), {}, AovKind::rest).name, "L.__WPref");
+  EXPECT_TRUE(isWorldRest({}, "World.__WPref"));
+  EXPECT_FALSE(isWorldRest({}, "World.Pref"));
+  AovNames names;
+  names.restSpace = RestSpace::world;
+  EXPECT_TRUE(isWorldRest(names, "Pref"));
+  EXPECT_EQ(requireAov(fileOf({"L.UV.U", "L.UV.V", "L.UV.A"}), {}, AovKind::uv).channels,
+            (Names{"L.UV.U", "L.UV.V"}));
+}
+
 TEST_F(AovResolver, KnowsTheNamesOfOtherRenderers) {
   EXPECT_EQ(requireAov(fileOf(xyz("P")), {}, AovKind::position).name, "P");
   EXPECT_EQ(requireAov(fileOf(xyz("Nworld")), {}, AovKind::normal).name, "Nworld");

@@ -161,6 +161,18 @@ TEST_F(SidecarTest, ReadsStretchedDiscsHardMasksAndWhatIsNotPainted) {
   EXPECT_EQ(read(changed).lights[0].masks->arrangement, MaskArrangement::grid);
 }
 
+TEST_F(SidecarTest, ReadsWhatRestsAndWhatIsInstanced) {
+  json changed = example();
+  EXPECT_FALSE(read(changed).objects[0].restBounds);
+  EXPECT_FALSE(read(changed).objects[0].instanced);
+  changed["objects"][0]["rest_bounds"] = {{"min", {-3, -2, -1}}, {"max", {1, 2, 3}}};
+  changed["objects"][0]["instanced"] = true;
+  const SidecarObject object = read(changed).objects[0];
+  EXPECT_EQ((*object.restBounds)[0], V3d(-3, -2, -1));
+  EXPECT_EQ((*object.restBounds)[1], V3d(1, 2, 3));
+  EXPECT_TRUE(object.instanced);
+}
+
 TEST_F(SidecarTest, SomeoneElsesJsonIsNotOurs) {
   for (const char* text : {R"({"asset": "x"})", "[1, 2]", "7"}) {
     writeText(folder_ / "shot.0012.json", text);

@@ -81,6 +81,11 @@ float octaveShift(float octave) {
   return turns - std::floor(turns);
 }
 
+float coarserShare(float beyond, float fade) {
+  const float share = (beyond - 0.5f) / fade + 0.5f;
+  return share > 0.0f ? (share < 1.0f ? share : 1.0f) : 0.0f;
+}
+
 // Md near `wanted`, in octaves of what it is: the finer one, with `fade` of the gap to the next one
 // in the middle over which the two change places.
 void fitOctave(BrushAnchor& anchor, float wanted, float fade) {
@@ -88,8 +93,9 @@ void fitOctave(BrushAnchor& anchor, float wanted, float fade) {
   if (!std::isfinite(octaves)) return;
   const float whole = std::floor(octaves);
   anchor.mappingDistance *= exp2Of(whole);
-  const float share = (octaves - whole - 0.5f) / fade + 0.5f;
-  anchor.coarser = share > 0.0f ? (share < 1.0f ? share : 1.0f) : 0.0f;
+  anchor.octaves = octaves;
+  anchor.octaveFade = fade;
+  anchor.coarser = coarserShare(octaves - whole, fade);
   anchor.shift = octaveShift(whole);
   anchor.coarserShift = octaveShift(whole + 1.0f);
 }
@@ -106,6 +112,14 @@ void fitScene(BrushAnchor& anchor, const BrushSubject& subject, bool seed) {
 }
 
 }  // namespace
+
+StrokeOctave strokeOctave(const BrushAnchor& anchor, float stretched) {
+  const float octaves = anchor.octaves - stretched;
+  const float whole = std::floor(octaves);
+  return {anchor.mappingDistance * exp2Of(whole - std::floor(anchor.octaves)),
+          coarserShare(octaves - whole, anchor.octaveFade), octaveShift(whole),
+          octaveShift(whole + 1.0f)};
+}
 
 std::vector<V3f> referencePoints(const BrushSubject& subject, const Light& light,
                                  const BrushParams& params) {

@@ -30,12 +30,25 @@ struct BrushAnchor {
   std::vector<Point> points;  ///< at least one, by rising `along`
   ObjectAxes object;
   V3f longSide{1, 0, 0};      ///< world, unit
+  bool atRest = false;        ///< strokes lie on the places at rest that applyBrush is given
   float mappingDistance = 1;  ///< Md, of the finer strokes
   float coarser = 0;          ///< share of the same strokes at 2 Md, 0..1
   float shift = 0;            ///< added to u at Md, so that octaves do not repeat each other
   float coarserShift = 0;     ///< added to u at 2 Md
+  float octaves = 0;          ///< by which the wanted Md exceeds the one that octaves count from
+  float octaveFade = 0.5f;    ///< share of an octave over which two change places
   int strip = 0;
 };
+
+/// Sizes of strokes that a pixel shows, as Md, `coarser` and the shifts of an anchor.
+struct StrokeOctave {
+  float mappingDistance, coarser, shift, coarserShift;
+};
+
+/// **[ours]** The octave in which strokes on skin that is 2^stretched times as large as it rests
+/// have the size that the anchor wants; 0 gives the anchor's own. Within a quarter of an octave of
+/// a whole one nothing is mixed (unless the anchor's strokes keep their size on the screen).
+StrokeOctave strokeOctave(const BrushAnchor& anchor, float stretched);
 
 /// **[ours]** Reference points (method §8) of a subject: the given ones; or for a flat subject the
 /// foot of the perpendicular from the light on its plane (under a sun: the middle of its bounds);

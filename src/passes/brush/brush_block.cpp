@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "image/clones.h"
+#include "passes/brush/block_axes.h"
 #include "passes/brush/brush_taps.h"
+#include "passes/brush/rest_block.h"
 
 namespace kagefude {
 namespace {
@@ -112,9 +114,9 @@ void placesAlong(V3f axis, V3f origin, int count, int k, BrushBlock& block) {
 }
 
 // Shares of the object's axes, as addHeldTaps; `normal` is zero where there is none.
-KAGEFUDE_CLONES
-void weighAxes(V3f v, V3f g, ObjectAxes object, float near, int count, BrushBlock& block) {
-  const V3f a = object.x, b = object.y, c = object.z;
+template <class Axes>
+__attribute__((always_inline)) inline void weighAlong(V3f v, V3f g, const Axes& axes, float near,
+                                                      int count, BrushBlock& block) {
   const float *__restrict px = block.here.x + 1, *__restrict py = block.here.y + 1,
                           *__restrict pz = block.here.z + 1;
   const float *__restrict nx = block.normalX, *__restrict ny = block.normalY,
@@ -126,9 +128,9 @@ void weighAxes(V3f v, V3f g, ObjectAxes object, float near, int count, BrushBloc
     const float rx = v.y * z - v.z * y, ry = v.z * x - v.x * z, rz = v.x * y - v.y * x;
     const float off = nx[i] * rx + ny[i] * ry + nz[i] * rz;
     const float tx = rx - nx[i] * off, ty = ry - ny[i] * off, tz = rz - nz[i] * off;
-    const float alongA = tx * a.x + ty * a.y + tz * a.z;
-    const float alongB = tx * b.x + ty * b.y + tz * b.z;
-    const float alongC = tx * c.x + ty * c.y + tz * c.z;
+    const float alongA = axes.along(0, i, tx, ty, tz);
+    const float alongB = axes.along(1, i, tx, ty, tz);
+    const float alongC = axes.along(2, i, tx, ty, tz);
     const float partA = near * near + alongA * alongA, partB = near * near + alongB * alongB,
                 partC = near * near + alongC * alongC;
     const float largerAB = partA > partB ? partA : partB;
@@ -144,6 +146,16 @@ void weighAxes(V3f v, V3f g, ObjectAxes object, float near, int count, BrushBloc
     w1[i] = weightB / total;
     w2[i] = weightC / total;
   }
+}
+
+KAGEFUDE_CLONES
+void weighObjectAxes(V3f v, V3f g, ObjectAxes object, float near, int count, BrushBlock& block) {
+  weighAlong(v, g, SameAxes(object), near, count, block);
+}
+
+KAGEFUDE_CLONES
+void weighRestAxes(V3f v, V3f g, float near, int count, BrushBlock& block) {
+  weighAlong(v, g, PixelAxes(block), near, count, block);
 }
 
 // Turns shares into weights that keep the contrast (or not), and finds the row mean's.
@@ -200,6 +212,7 @@ void loadBlock(const BrushInput& in, const BrushAnchor& anchor, int first, int e
   }
   changes(block.here, block.here, 2, block.here, 0, count, block.across);
   changes(block.here, block.below, 1, block.above, 1, count, block.down);
+  if (liesAtRest(in, anchor)) return loadRest(in, anchor.object, first, end, y, block);
   const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
   for (int k = 0; k < 3; ++k) placesAlong(axes[k], anchor.object.origin, count, k, block);
 }
@@ -209,8 +222,12 @@ void prepareBlock(const BrushInput& in, const BrushAnchor& anchor, int first, in
   loadBlock(in, anchor, first, end, y, block);
   const int count = end - first;
   const float finer = 1.0f - anchor.coarser;
-  weighAxes(anchor.points[0].frame.axis, anchor.points[0].position, anchor.object,
-            heldNearAxis * anchor.mappingDistance * (1.0f + anchor.coarser), count, block);
+  const BrushAnchor::Point& point = anchor.points[0];
+  const float near = heldNearAxis * anchor.mappingDistance * (1.0f + anchor.coarser);
+  if (liesAtRest(in, anchor))
+    weighRestAxes(point.frame.axis, point.position, near, count, block);
+  else
+    weighObjectAxes(point.frame.axis, point.position, anchor.object, near, count, block);
   gainContrast(in.params.contrast, finer * finer + anchor.coarser * anchor.coarser,
                in.params.crossFade == BrushParams::CrossFade::variance ? 1.0f : 0.0f, count, block);
 }

@@ -33,11 +33,11 @@ void writeDiagnostics(const BrushInput& in, int y, bool keepOthers, BrushResult&
   for (int x = 0; x < in.index.width; ++x) {
     const size_t index = in.index(x, y);
     if (index == 0 && keepOthers) continue;
-    const V3f p = in.position(x, y);
     result.angle(x, y) = result.repeat(x, y) = 0.0f;
-    if (index == 0 || index > in.anchors.size() || !isFinite(p)) continue;
+    if (index == 0 || index > in.anchors.size() || !isFinite(in.position(x, y))) continue;
     const BrushAnchor& anchor = in.anchors[index - 1];
-    const BrushPlace place = brushPlace(anchor, p, in.params.pointBlend);
+    const V3f p = strokePosition(in, anchor, x, y);
+    const BrushPlace place = brushPlace(anchor, placeAlong(anchor, p), in.params.pointBlend);
     const BrushAnchor::Point& point = anchor.points[place.point + (place.next > 0.5f ? 1 : 0)];
     result.angle(x, y) = brushAngle(point.frame, point.position, p);
     result.repeat(x, y) = repeatsAt(point, p, anchor.mappingDistance);
@@ -79,7 +79,7 @@ void paintRow(const BrushInput& in, int x, int stop, int y, bool keepOthers, Col
     const bool known = index[x] > 0 && index[x] <= in.anchors.size();
     if (known && canPaintSeedRow(in, in.anchors[index[x] - 1]))
       paintSeedRow(in, in.anchors[index[x] - 1], x, end, y, out);
-    else if (known && canPaintObjectRow(in))
+    else if (known && canPaintObjectRow(in, in.anchors[index[x] - 1]))
       paintObjectRow(in, in.anchors[index[x] - 1], x, end, y, out);
     else if (known && canPaintHeldRow(in, in.anchors[index[x] - 1]))
       paintHeldRow(in, in.anchors[index[x] - 1], x, end, y, out);
@@ -99,8 +99,8 @@ void fit(Floats& plane, View<const float> like) {
 void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
                 View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
                 std::span<const Strip> strips, const BrushParams& params, BrushResult& result,
-                bool keepOthers) {
-  const BrushInput in{position, normal, tone, anchorIndex, anchors, strips, params};
+                bool keepOthers, Vec3View rest) {
+  const BrushInput in{position, normal, tone, anchorIndex, anchors, strips, params, rest};
   checkAnchors(in);
   for (Floats* plane : {&result.r, &result.g, &result.b, &result.a}) fit(*plane, tone);
   if (params.diagnostics)

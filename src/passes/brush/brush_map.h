@@ -50,9 +50,17 @@ BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> ton
 /// The same into planes that are there already; they are made anew where they are empty or of
 /// another size (fresh memory costs about as much as painting it). With `keepOthers` pixels of no
 /// anchor stay as they are, so that several calls fill one picture.
+/// **[ours]** `rest` holds strokes to surfaces that deform: where each pixel's surface point lies
+/// along the object's axes while nothing deforms it, in world units from the object's origin;
+/// finite at every pixel of an anchor that is `atRest`. Places, their footprints and the reference
+/// points' shares are then taken from it. Which axes the strokes run along, and which plane the
+/// surface faces, is still decided by the light and the surface as it is seen, through the local
+/// map between the two (restAxes). With `stretch = world` held strokes change their octave by the
+/// stretch of that map (strokeOctave). A thing that does not deform looks as it does without,
+/// within roundings of its positions' changes.
 void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
                 View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
                 std::span<const Strip> strips, const BrushParams& params, BrushResult& result,
-                bool keepOthers = false);
+                bool keepOthers = false, Vec3View rest = {});
 
 }  // namespace kagefude

@@ -10,11 +10,16 @@ struct BrushParams {
   enum class CrossFade { variance, linear };
   enum class Filter { anisotropic, bilinear };
   enum class Size { object, screen };
+  enum class Ground { rest, object, uv };
+  enum class Stretch { skin, world };
   Mapping mapping = Mapping::held;
   Grain grain = Grain::object;
   CrossFade crossFade = CrossFade::variance;
   Filter filter = Filter::anisotropic;
   Size size = Size::object;
+  Ground ground = Ground::rest;
+  Stretch stretch = Stretch::skin;
+  float uvSize = 0;
   float mappingDistance = 0;
   float stripPixels = 512;
   float blendWidth = 0.5f;
@@ -31,6 +36,8 @@ inline constexpr std::string_view brushGrains[] = {"object", "tone"};
 inline constexpr std::string_view brushCrossFades[] = {"variance", "linear"};
 inline constexpr std::string_view brushFilters[] = {"anisotropic", "bilinear"};
 inline constexpr std::string_view brushSizes[] = {"object", "screen"};
+inline constexpr std::string_view brushGrounds[] = {"rest", "object", "uv"};
+inline constexpr std::string_view brushStretches[] = {"skin", "world"};
 inline constexpr Parameter brushParameters[] = {
     choice<&BrushParams::mapping>("mapping", brushMappings,
                                   "Where a stroke's place along its row comes from: held to the "
@@ -48,6 +55,18 @@ inline constexpr Parameter brushParameters[] = {
                                  "at one point."),
     choice<&BrushParams::size>("size", brushSizes,
                                "Whether strokes keep their size on the object or on the screen."),
+    choice<&BrushParams::ground>("ground", brushGrounds,
+                                 "What strokes are held to: the surface as it rests, so that they "
+                                 "stay on skin that deforms (where the frame has a Rest pass, else "
+                                 "as object); the object's own axes; or its UVs (held strokes "
+                                 "only)."),
+    choice<&BrushParams::stretch>("stretch", brushStretches,
+                                  "Of held strokes on rest positions or UVs: whether they stretch "
+                                  "with the skin, or keep about their size in the world, in "
+                                  "octaves that fade into each other."),
+    number<&BrushParams::uvSize>("uv_size", 0, 1e6, "world units",
+                                 "With ground = uv: how much surface one unit of UV counts for; 0 "
+                                 "takes the object's longest side."),
     number<&BrushParams::mappingDistance>("mapping_distance", 0, 1e6, "world units",
                                           "Distance from the axis at which the strip goes round "
                                           "once; 0 takes a quarter of the object's half size."),

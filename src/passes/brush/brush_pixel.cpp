@@ -5,19 +5,21 @@
 
 #include "passes/brush/brush_taps.h"
 #include "passes/brush/grain_lookup.h"
+#include "passes/brush/rest_axes.h"
 
 namespace kagefude {
 namespace {
 
 struct Change {
-  V3f position{0, 0, 0};
+  V3f position{0, 0, 0}, rest{0, 0, 0};
   float tone = 0;
 };
 
 // Change to the next pixel along one direction, from the neighbour behind or before that belongs
-// to the same anchor and differs less; position and tone choose for themselves.
-Change changeAlong(const BrushInput& in, int x, int y, int stepX, int stepY, const V3f& p,
-                   float tone) {
+// to the same anchor and differs less; position (and with it the place at rest) and tone choose for
+// themselves.
+Change changeAlong(const BrushInput& in, bool atRest, int x, int y, int stepX, int stepY,
+                   const V3f& p, float tone) {
   Change best;
   float smallest = noChange, smallestTone = noChange;
   for (int side = 1; side >= -1; side -= 2) {
@@ -29,6 +31,7 @@ Change changeAlong(const BrushInput& in, int x, int y, int stepX, int stepY, con
     if (d.dot(d) < smallest) {
       smallest = d.dot(d);
       best.position = d;
+      if (atRest) best.rest = (in.rest(nx, ny) - in.rest(x, y)) * static_cast<float>(side);
     }
     const float dTone = (clampedUnit(in.tone(nx, ny)) - tone) * static_cast<float>(side);
     if (std::fabs(dTone) < smallestTone) {
@@ -39,8 +42,54 @@ Change changeAlong(const BrushInput& in, int x, int y, int stepX, int stepY, con
   return best;
 }
 
-BrushPixel pixelAt(const BrushInput& in, int x, int y, const V3f& p) {
+// Places along the object's axes, of positions.
+void placeInObject(const BrushAnchor& anchor, BrushPixel& pixel) {
+  const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
+  const V3f q = pixel.position - anchor.object.origin;
+  for (int k = 0; k < 3; ++k) {
+    pixel.axes[k] = axes[k];
+    pixel.place[k] = axes[k].dot(q);
+    pixel.placeDx[k] = axes[k].dot(pixel.dx);
+    pixel.placeDy[k] = axes[k].dot(pixel.dy);
+  }
+  pixel.along = placeAlong(anchor, pixel.position);
+}
+
+// The same of places at rest. Where the map to rest is not known the object's axes stand.
+void placeAtRest(const BrushAnchor& anchor, const V3f& place, const V3f& dx, const V3f& dy,
+                 bool keepsSize, BrushPixel& pixel) {
+  const V3f side = sideAtRest(anchor);
+  const V3f& a = pixel.dx;
+  const V3f& b = pixel.dy;
+  RestChange change{a.x, a.y, a.z, b.x, b.y, b.z, {dx.x, dx.y, dx.z}, {dy.x, dy.y, dy.z}};
+  float x[3] = {anchor.object.x.x, anchor.object.y.x, anchor.object.z.x};
+  float y[3] = {anchor.object.x.y, anchor.object.y.y, anchor.object.z.y};
+  float z[3] = {anchor.object.x.z, anchor.object.y.z, anchor.object.z.z};
+  restAxes(change, x, y, z);
+  if (keepsSize) pixel.octave = strokeOctave(anchor, restStretch(change));
+  for (int k = 0; k < 3; ++k) {
+    pixel.axes[k] = V3f(x[k], y[k], z[k]);
+    pixel.place[k] = place[k];
+    pixel.placeDx[k] = dx[k];
+    pixel.placeDy[k] = dy[k];
+  }
+  pixel.along = side.dot(place);
+}
+
+// Polar and seed strokes see the surface as it rests.
+void moveToRest(const BrushInput& in, const BrushAnchor& anchor, int x, int y, BrushPixel& pixel) {
+  const auto turned = [&](const float* d) {
+    return anchor.object.x * d[0] + anchor.object.y * d[1] + anchor.object.z * d[2];
+  };
+  pixel.position = strokePosition(in, anchor, x, y);
+  pixel.dx = turned(pixel.placeDx);
+  pixel.dy = turned(pixel.placeDy);
+}
+
+BrushPixel pixelAt(const BrushInput& in, const BrushAnchor& anchor, int x, int y, const V3f& p) {
   BrushPixel pixel;
+  const bool atRest = liesAtRest(in, anchor);
+  const bool filtered = in.params.filter == BrushParams::Filter::anisotropic;
   pixel.position = p;
   pixel.tone = clampedUnit(in.tone(x, y));
   pixel.normal = V3f(0.0f);
@@ -49,13 +98,26 @@ BrushPixel pixelAt(const BrushInput& in, int x, int y, const V3f& p) {
     const float length = std::sqrt(n.dot(n));
     if (length > 0.0f && isFinite(n)) pixel.normal = n / length;
   }
-  if (in.params.filter == BrushParams::Filter::bilinear) return pixel;
-  const Change right = changeAlong(in, x, y, 1, 0, p, pixel.tone);
-  const Change below = changeAlong(in, x, y, 0, 1, p, pixel.tone);
-  pixel.dx = right.position;
-  pixel.toneDx = right.tone;
-  pixel.dy = below.position;
-  pixel.toneDy = below.tone;
+  pixel.octave = {anchor.mappingDistance, anchor.coarser, anchor.shift, anchor.coarserShift};
+  Change right, below;
+  if (filtered || atRest) {
+    right = changeAlong(in, atRest, x, y, 1, 0, p, pixel.tone);
+    below = changeAlong(in, atRest, x, y, 0, 1, p, pixel.tone);
+    pixel.dx = right.position;
+    pixel.dy = below.position;
+  }
+  if (atRest)
+    placeAtRest(anchor, in.rest(x, y), right.rest, below.rest, keepsSizeInWorld(in, anchor), pixel);
+  else
+    placeInObject(anchor, pixel);
+  if (filtered) {
+    pixel.toneDx = right.tone;
+    pixel.toneDy = below.tone;
+  } else if (atRest) {
+    for (int k = 0; k < 3; ++k) pixel.placeDx[k] = pixel.placeDy[k] = 0.0f;
+  }
+  if (atRest && in.params.mapping != BrushParams::Mapping::held)
+    moveToRest(in, anchor, x, y, pixel);
   return pixel;
 }
 
@@ -109,8 +171,15 @@ Rgba grainedColour(const Strip& strip, const BrushTaps& taps, const BrushPixel& 
 
 }  // namespace
 
+V3f strokePosition(const BrushInput& in, const BrushAnchor& anchor, int x, int y) {
+  if (!liesAtRest(in, anchor)) return in.position(x, y);
+  const V3f place = in.rest(x, y);
+  return anchor.object.origin + anchor.object.x * place.x + anchor.object.y * place.y +
+         anchor.object.z * place.z;
+}
+
 Rgba brushColourAt(const BrushInput& in, const BrushAnchor& anchor, int x, int y, const V3f& p) {
-  const BrushPixel pixel = pixelAt(in, x, y, p);
+  const BrushPixel pixel = pixelAt(in, anchor, x, y, p);
   const Strip& strip = in.strips[static_cast<size_t>(anchor.strip)];
   BrushTaps taps;
   if (in.params.mapping == BrushParams::Mapping::seed) {

@@ -16,6 +16,7 @@ struct BrushInput {
   std::span<const BrushAnchor> anchors;
   std::span<const Strip> strips;
   const BrushParams& params;
+  Vec3View rest = {};  ///< see applyBrush; may be empty
 };
 
 /// Squared distance that stands for "no neighbour".
@@ -30,6 +31,20 @@ inline bool isFinite(const V3f& v) {
 inline float clampedUnit(float value) {
   return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
 }
+
+/// Whether an anchor's strokes lie on places at rest.
+inline bool liesAtRest(const BrushInput& in, const BrushAnchor& anchor) {
+  return anchor.atRest && !in.rest.empty();
+}
+
+/// Whether an anchor's strokes keep their size in the world while its skin stretches.
+inline bool keepsSizeInWorld(const BrushInput& in, const BrushAnchor& anchor) {
+  return in.params.stretch == BrushParams::Stretch::world && liesAtRest(in, anchor);
+}
+
+/// Where polar and seed strokes have a pixel: its position, or its place at rest under the object's
+/// matrix of this frame.
+V3f strokePosition(const BrushInput& in, const BrushAnchor& anchor, int x, int y);
 
 /// Brush colour of one pixel at finite position p, in plain steps: what applyBrush means. Rows of
 /// the common case are painted faster, within a few roundings of this, by brush_rows.

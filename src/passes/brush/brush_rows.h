@@ -35,7 +35,8 @@ struct ColourRows {
   }
 };
 
-/// Whether paintHeldRow can do this anchor: held strokes, filtered, round one reference point.
+/// Whether paintHeldRow can do this anchor: held strokes, filtered, all of one
+/// size, round one reference point.
 bool canPaintHeldRow(const BrushInput& in, const BrushAnchor& anchor);
 
 /// Paints the pixels [first, end) of row y, all of one anchor, to the colours of brushColourAt

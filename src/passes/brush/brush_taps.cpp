@@ -44,8 +44,8 @@ V3f strokeDirection(const BrushAnchor::Point& point, const BrushPixel& pixel) {
 // Squared parts of the strokes' direction along the object's axes.
 void strokeParts(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
                  float nearAxis, float* parts) {
-  const BrushPlace place = brushPlace(anchor, pixel.position, params.pointBlend);
-  const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
+  const BrushPlace place = brushPlace(anchor, pixel.along, params.pointBlend);
+  const V3f* const axes = pixel.axes;
   const float near = nearAxis * anchor.mappingDistance * (1.0f + anchor.coarser);
   for (int k = 0; k < 3; ++k) parts[k] = near * near;
   for (int i = 0; i < 2; ++i) {
@@ -58,11 +58,10 @@ void strokeParts(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
 
 }  // namespace
 
-BrushPlace brushPlace(const BrushAnchor& anchor, const V3f& p, float blend) {
+BrushPlace brushPlace(const BrushAnchor& anchor, float along, float blend) {
   BrushPlace place;
   const size_t last = anchor.points.size() - 1;
   if (last == 0) return place;
-  const float along = anchor.longSide.dot(p - anchor.object.origin);
   while (place.point < last && along >= anchor.points[place.point + 1].along) ++place.point;
   if (place.point == last) return place;
   const float from = anchor.points[place.point].along, to = anchor.points[place.point + 1].along;
@@ -73,7 +72,7 @@ BrushPlace brushPlace(const BrushAnchor& anchor, const V3f& p, float blend) {
 
 void addSeedTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
                  BrushTaps& taps) {
-  const BrushAnchor::Point& point = anchor.points[brushPlace(anchor, pixel.position, 1.0f).point];
+  const BrushAnchor::Point& point = anchor.points[brushPlace(anchor, pixel.along, 1.0f).point];
   const float angle = brushAngle(point.frame, point.position, pixel.position);
   const BrushRepeat repeat = brushRepeat(axisDistance(point.frame, point.position, pixel.position),
                                          anchor.mappingDistance, params.blendWidth);
@@ -83,7 +82,7 @@ void addSeedTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
 
 void addPolarTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
                   BrushTaps& taps) {
-  const BrushPlace place = brushPlace(anchor, pixel.position, params.pointBlend);
+  const BrushPlace place = brushPlace(anchor, pixel.along, params.pointBlend);
   float distance = 0;
   for (int i = 0; i < 2; ++i) {
     const float share = i == 0 ? 1.0f - place.next : place.next;
@@ -104,7 +103,7 @@ void addPolarTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Brus
 
 void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
                    float aspect, BrushTaps& taps) {
-  const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
+  const V3f* const axes = pixel.axes;
   float parts[3];
   strokeParts(anchor, pixel, params, objectNearAxis, parts);
   const bool known = pixel.normal.dot(pixel.normal) > 0.0f;
@@ -112,14 +111,10 @@ void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Bru
   float facing[3];
   for (int k = 0; k < 3; ++k) facing[k] = normal.dot(axes[k]) * normal.dot(axes[k]) + leastFacing;
   const float mostFacing = std::max(std::max(facing[0], facing[1]), facing[2]);
-  const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
-  const V3f q = pixel.position - anchor.object.origin;
-  float place[3], placeDx[3], placeDy[3];
-  for (int k = 0; k < 3; ++k) {
-    place[k] = axes[k].dot(q);
-    placeDx[k] = axes[k].dot(pixel.dx);
-    placeDy[k] = axes[k].dot(pixel.dy);
-  }
+  const StrokeOctave& octave = pixel.octave;
+  const float perUnit = 1.0f / (2.0f * pi * octave.mappingDistance);
+  const float *const place = pixel.place, *const placeDx = pixel.placeDx,
+                     *const placeDy = pixel.placeDy;
   for (int k = 0; k < 3; ++k) {
     const float faces = excessShare(facing[k], mostFacing);
     if (!(faces > 0.0f)) continue;
@@ -131,38 +126,36 @@ void addObjectTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const Bru
     for (int side = 0; side < 2; ++side) {
       if (!(share[side] > 0.0f)) continue;
       const int i = axis[side], j = axis[1 - side];
-      const auto add = [&](float unit, float shift, float octave) {
-        if (!(octave > 0.0f)) return;
+      const auto add = [&](float unit, float shift, float part) {
+        if (!(part > 0.0f)) return;
         const float down = unit * aspect;
         taps.across[taps.count] = place[j] * down + axisOffset[k];
-        taps.add(place[i] * unit + (axisOffset[i] + shift), faces * share[side] * octave,
+        taps.add(place[i] * unit + (axisOffset[i] + shift), faces * share[side] * part,
                  {placeDx[i] * unit, placeDx[j] * down, placeDy[i] * unit, placeDy[j] * down});
       };
-      add(perUnit, anchor.shift, 1.0f - anchor.coarser);
-      add(0.5f * perUnit, anchor.coarserShift, anchor.coarser);
+      add(perUnit, octave.shift, 1.0f - octave.coarser);
+      add(0.5f * perUnit, octave.coarserShift, octave.coarser);
     }
   }
 }
 
 void addHeldTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,
                  BrushTaps& taps) {
-  const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
   float parts[3];
   strokeParts(anchor, pixel, params, heldNearAxis, parts);
   const float largest = std::max(std::max(parts[0], parts[1]), parts[2]);
-  const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
-  const V3f q = pixel.position - anchor.object.origin;
+  const StrokeOctave& octave = pixel.octave;
+  const float perUnit = 1.0f / (2.0f * pi * octave.mappingDistance);
   for (int k = 0; k < 3; ++k) {
     const float weight = excessShare(parts[k], largest);
     if (!(weight > 0.0f)) continue;
     const auto add = [&](float unit, float offset, float share) {
       if (share > 0.0f)
-        taps.add(axes[k].dot(q) * unit + offset, weight * share,
-                 {axes[k].dot(pixel.dx) * unit, pixel.toneDx, axes[k].dot(pixel.dy) * unit,
-                  pixel.toneDy});
+        taps.add(pixel.place[k] * unit + offset, weight * share,
+                 {pixel.placeDx[k] * unit, pixel.toneDx, pixel.placeDy[k] * unit, pixel.toneDy});
     };
-    add(perUnit, axisOffset[k] + anchor.shift, 1.0f - anchor.coarser);
-    add(0.5f * perUnit, axisOffset[k] + anchor.coarserShift, anchor.coarser);
+    add(perUnit, axisOffset[k] + octave.shift, 1.0f - octave.coarser);
+    add(0.5f * perUnit, axisOffset[k] + octave.coarserShift, octave.coarser);
   }
 }
 

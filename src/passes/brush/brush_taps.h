@@ -28,12 +28,17 @@ inline float excessShare(float part, float largest) {
 /// The same for object grain: wide, or strokes would lie in squares round the axis.
 inline constexpr float objectNearAxis = 1.0f;
 
-/// One pixel of the brush pass: place, normal (zero: unknown), tone, and their change to the next
-/// pixel in x and y.
+/// One pixel of the brush pass: position, normal (zero: unknown), tone, and their change to the
+/// next pixel in x and y; and what held strokes go by: where it lies along the object's axes, how
+/// that changes, and these axes' directions at the pixel.
 struct BrushPixel {
   V3f position, normal;
   V3f dx{0, 0, 0}, dy{0, 0, 0};
   float tone = 0, toneDx = 0, toneDy = 0;
+  float place[3] = {0, 0, 0}, placeDx[3] = {0, 0, 0}, placeDy[3] = {0, 0, 0};
+  V3f axes[3];      ///< world; a direction's part along axis k is its product with axes[k]
+  float along = 0;  ///< place on the anchor's long side
+  StrokeOctave octave{1, 0, 0, 0};  ///< of held strokes
 };
 
 /// The places on the strip that are mixed at one pixel, with their weights.
@@ -59,8 +64,20 @@ struct BrushPlace {
   float next = 0;
 };
 
-/// Smooth weights along the anchor's long side, over `blend` of each gap between two points.
-BrushPlace brushPlace(const BrushAnchor& anchor, const V3f& p, float blend);
+/// Place of a point of the world on the anchor's long side.
+inline float placeAlong(const BrushAnchor& anchor, const V3f& p) {
+  return anchor.longSide.dot(p - anchor.object.origin);
+}
+
+/// The long side along the object's axes.
+inline V3f sideAtRest(const BrushAnchor& anchor) {
+  const V3f& side = anchor.longSide;
+  return {side.dot(anchor.object.x), side.dot(anchor.object.y), side.dot(anchor.object.z)};
+}
+
+/// Smooth weights at a place on the anchor's long side, over `blend` of each gap between two
+/// points.
+BrushPlace brushPlace(const BrushAnchor& anchor, float along, float blend);
 
 /// Places of the seed's two lookups (002 eq. 3.10) with the weights 1 - t and t (eq. 3.11).
 void addSeedTaps(const BrushAnchor& anchor, const BrushPixel& pixel, const BrushParams& params,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "image/clones.h"
+#include "passes/brush/block_axes.h"
 #include "passes/brush/brush_taps.h"
 
 namespace kagefude {
@@ -15,10 +16,10 @@ struct Parts {
 };
 
 // Adds the parts round one reference point, weighed by `share`, as strokeParts.
-KAGEFUDE_CLONES
-void addParts(V3f v, V3f g, const ObjectAxes& object, const float* __restrict share, int count,
-              const BrushBlock& block, Parts& parts) {
-  const V3f a = object.x, b = object.y, c = object.z;
+template <class Axes>
+__attribute__((always_inline)) inline void addPartsAlong(V3f v, V3f g, const Axes& axes,
+                                                         const float* __restrict share, int count,
+                                                         const BrushBlock& block, Parts& parts) {
   const float *__restrict px = block.here.x + 1, *__restrict py = block.here.y + 1,
                           *__restrict pz = block.here.z + 1;
   const float *__restrict nx = block.normalX, *__restrict ny = block.normalY,
@@ -30,27 +31,53 @@ void addParts(V3f v, V3f g, const ObjectAxes& object, const float* __restrict sh
     const float rx = v.y * z - v.z * y, ry = v.z * x - v.x * z, rz = v.x * y - v.y * x;
     const float off = nx[i] * rx + ny[i] * ry + nz[i] * rz;
     const float tx = rx - nx[i] * off, ty = ry - ny[i] * off, tz = rz - nz[i] * off;
-    const float alongA = tx * a.x + ty * a.y + tz * a.z;
-    const float alongB = tx * b.x + ty * b.y + tz * b.z;
-    const float alongC = tx * c.x + ty * c.y + tz * c.z;
+    const float alongA = axes.along(0, i, tx, ty, tz);
+    const float alongB = axes.along(1, i, tx, ty, tz);
+    const float alongC = axes.along(2, i, tx, ty, tz);
     pa[i] += share[i] * alongA * alongA;
     pb[i] += share[i] * alongB * alongB;
     pc[i] += share[i] * alongC * alongC;
   }
 }
 
-// Share of everything beyond the gap from reference point j to j + 1, as brushPlace.
 KAGEFUDE_CLONES
-void shareBeyond(const BrushAnchor& anchor, float from, float to, float blend, int count,
-                 const BrushBlock& block, float* __restrict share) {
-  const V3f side = anchor.longSide, origin = anchor.object.origin;
+void addObjectParts(V3f v, V3f g, const ObjectAxes& object, const float* share, int count,
+                    const BrushBlock& block, Parts& parts) {
+  addPartsAlong(v, g, SameAxes(object), share, count, block, parts);
+}
+
+KAGEFUDE_CLONES
+void addRestParts(V3f v, V3f g, const float* share, int count, const BrushBlock& block,
+                  Parts& parts) {
+  addPartsAlong(v, g, PixelAxes(block), share, count, block, parts);
+}
+
+// Places on the anchor's long side.
+KAGEFUDE_CLONES
+void findAlong(V3f side, V3f origin, int count, const BrushBlock& block, float* __restrict along) {
   const float *__restrict px = block.here.x + 1, *__restrict py = block.here.y + 1,
                           *__restrict pz = block.here.z + 1;
 #pragma GCC ivdep
-  for (int i = 0; i < count; ++i) {
-    const float along =
+  for (int i = 0; i < count; ++i)
+    along[i] =
         side.x * (px[i] - origin.x) + side.y * (py[i] - origin.y) + side.z * (pz[i] - origin.z);
-    const float t = ((along - from) / (to - from) - 0.5f) / blend + 0.5f;
+}
+
+KAGEFUDE_CLONES
+void findAlongAtRest(V3f side, int count, const BrushBlock& block, float* __restrict along) {
+  const float *__restrict px = block.place[0], *__restrict py = block.place[1],
+                          *__restrict pz = block.place[2];
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) along[i] = side.x * px[i] + side.y * py[i] + side.z * pz[i];
+}
+
+// Share of everything beyond the gap from reference point j to j + 1, as brushPlace.
+KAGEFUDE_CLONES
+void shareBeyond(const float* __restrict along, float from, float to, float blend, int count,
+                 float* __restrict share) {
+#pragma GCC ivdep
+  for (int i = 0; i < count; ++i) {
+    const float t = ((along[i] - from) / (to - from) - 0.5f) / blend + 0.5f;
     const float above = t > 0.0f ? t : 0.0f;
     const float c = above < 1.0f ? above : 1.0f;
     share[i] = c * c * (3.0f - 2.0f * c);
@@ -61,17 +88,25 @@ void findParts(const BrushInput& in, const BrushAnchor& anchor, int count, const
                Parts& parts) {
   const float near = objectNearAxis * anchor.mappingDistance * (1.0f + anchor.coarser);
   for (auto& along : parts.along) std::fill_n(along, count, near * near);
-  alignas(64) float before[brushBlock], beyond[brushBlock], share[brushBlock];
+  alignas(64) float before[brushBlock], beyond[brushBlock], share[brushBlock], along[brushBlock];
+  const bool atRest = liesAtRest(in, anchor);
+  if (anchor.points.size() > 1 && atRest)
+    findAlongAtRest(sideAtRest(anchor), count, block, along);
+  else if (anchor.points.size() > 1)
+    findAlong(anchor.longSide, anchor.object.origin, count, block, along);
   std::fill_n(before, count, 1.0f);
   for (size_t j = 0; j < anchor.points.size(); ++j) {
     const bool last = j + 1 == anchor.points.size();
     std::fill_n(beyond, count, 0.0f);
     if (!last && anchor.points[j + 1].along > anchor.points[j].along)
-      shareBeyond(anchor, anchor.points[j].along, anchor.points[j + 1].along, in.params.pointBlend,
-                  count, block, beyond);
+      shareBeyond(along, anchor.points[j].along, anchor.points[j + 1].along, in.params.pointBlend,
+                  count, beyond);
     for (int i = 0; i < count; ++i) share[i] = before[i] * (1.0f - beyond[i]);
-    addParts(anchor.points[j].frame.axis, anchor.points[j].position, anchor.object, share, count,
-             block, parts);
+    const BrushAnchor::Point& point = anchor.points[j];
+    if (atRest)
+      addRestParts(point.frame.axis, point.position, share, count, block, parts);
+    else
+      addObjectParts(point.frame.axis, point.position, anchor.object, share, count, block, parts);
     std::copy_n(beyond, count, before);
   }
 }
@@ -84,9 +119,10 @@ inline float shareOfFirst(float first, float second) {
 }
 
 // How much the surface faces each axis; where no normal is known, by its positions.
-KAGEFUDE_CLONES
-void findFaces(const ObjectAxes& object, int count, const BrushBlock& block, GrainTaps& taps) {
-  const V3f a = object.x, b = object.y, c = object.z;
+template <class Axes>
+__attribute__((always_inline)) inline void findFacesAlong(const Axes& axes, int count,
+                                                          const BrushBlock& block,
+                                                          GrainTaps& taps) {
   float* __restrict fa = taps.faces[0], * __restrict fb = taps.faces[1], * __restrict fc = taps.faces[2];
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
@@ -97,8 +133,8 @@ void findFaces(const ObjectAxes& object, int count, const BrushBlock& block, Gra
     const float nx = known ? x : dy * ez - dz * ey;
     const float ny = known ? y : dz * ex - dx * ez;
     const float nz = known ? z : dx * ey - dy * ex;
-    const float onA = nx * a.x + ny * a.y + nz * a.z, onB = nx * b.x + ny * b.y + nz * b.z,
-                onC = nx * c.x + ny * c.y + nz * c.z;
+    const float onA = axes.along(0, i, nx, ny, nz), onB = axes.along(1, i, nx, ny, nz),
+                onC = axes.along(2, i, nx, ny, nz);
     const float faceA = onA * onA + leastFacing, faceB = onB * onB + leastFacing,
                 faceC = onC * onC + leastFacing;
     const float largerAB = faceA > faceB ? faceA : faceB;
@@ -107,6 +143,17 @@ void findFaces(const ObjectAxes& object, int count, const BrushBlock& block, Gra
     fb[i] = excessShare(faceB, largest);
     fc[i] = excessShare(faceC, largest);
   }
+}
+
+KAGEFUDE_CLONES
+void findObjectFaces(const ObjectAxes& object, int count, const BrushBlock& block,
+                     GrainTaps& taps) {
+  findFacesAlong(SameAxes(object), count, block, taps);
+}
+
+KAGEFUDE_CLONES
+void findRestFaces(int count, const BrushBlock& block, GrainTaps& taps) {
+  findFacesAlong(PixelAxes(block), count, block, taps);
 }
 
 /// What turns a block's places into places on the grain, for one octave.
@@ -197,7 +244,10 @@ void listGrainTaps(const BrushInput& in, const BrushAnchor& anchor, float aspect
                    BrushBlock& block, GrainTaps& taps) {
   Parts parts;
   findParts(in, anchor, count, block, parts);
-  findFaces(anchor.object, count, block, taps);
+  if (liesAtRest(in, anchor))
+    findRestFaces(count, block, taps);
+  else
+    findObjectFaces(anchor.object, count, block, taps);
   const float perUnit = 1.0f / (2.0f * pi * anchor.mappingDistance);
   const float finer = 1.0f - anchor.coarser,
               squares = finer * finer + anchor.coarser * anchor.coarser;

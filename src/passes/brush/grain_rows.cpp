@@ -91,10 +91,10 @@ bool allPresent(const BrushBlock& block, int count) {
 
 }  // namespace
 
-bool canPaintObjectRow(const BrushInput& in) {
+bool canPaintObjectRow(const BrushInput& in, const BrushAnchor& anchor) {
   return in.params.mapping == BrushParams::Mapping::held &&
          in.params.grain == BrushParams::Grain::object &&
-         in.params.filter == BrushParams::Filter::anisotropic;
+         in.params.filter == BrushParams::Filter::anisotropic && !keepsSizeInWorld(in, anchor);
 }
 
 void paintObjectRow(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,

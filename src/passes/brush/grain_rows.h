@@ -4,8 +4,9 @@
 
 namespace kagefude {
 
-/// Whether paintObjectRow can do this: held strokes that stay on the object, filtered.
-bool canPaintObjectRow(const BrushInput& in);
+/// Whether paintObjectRow can do this anchor: held strokes that stay on the object, filtered, all
+/// of one size.
+bool canPaintObjectRow(const BrushInput& in, const BrushAnchor& anchor);
 
 /// Paints the pixels [first, end) of row y, all of one anchor, to the colours of brushColourAt
 /// within a few roundings (1e-4 of the brightest texel, for the grain's steepest colours), in

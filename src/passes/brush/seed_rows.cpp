@@ -120,7 +120,8 @@ void storeSeed(const Rgba* texels, const SeedPlaces& places, int first, int coun
 }  // namespace
 
 bool canPaintSeedRow(const BrushInput& in, const BrushAnchor& anchor) {
-  return in.params.mapping == BrushParams::Mapping::seed && anchor.points.size() == 1;
+  return in.params.mapping == BrushParams::Mapping::seed && anchor.points.size() == 1 &&
+         !liesAtRest(in, anchor);
 }
 
 void paintSeedRow(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,

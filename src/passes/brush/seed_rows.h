@@ -4,7 +4,8 @@
 
 namespace kagefude {
 
-/// Whether paintSeedRow can do this anchor: the seed's mapping round one reference point.
+/// Whether paintSeedRow can do this anchor: the seed's mapping round one reference point,
+/// not at rest.
 bool canPaintSeedRow(const BrushInput& in, const BrushAnchor& anchor);
 
 /// Paints the pixels [first, end) of row y, all of one anchor, to the colours of brushColourAt, bit

@@ -129,5 +129,30 @@ TEST(BrushAnchor, ScreenSizeFollowsThePixelInOctaves) {
   }
 }
 
+TEST(StrokeOctave, ChangesWithoutAStepAndStartsAtTheAnchorsOwn) {
+  BrushAnchor anchor;
+  anchor.mappingDistance = 0.25f;
+  const StrokeOctave own = strokeOctave(anchor, 0);
+  EXPECT_EQ(own.mappingDistance, anchor.mappingDistance);
+  EXPECT_EQ(own.coarser, 0.0f);
+  EXPECT_EQ(own.shift, anchor.shift);
+  // Shares of the octaves by their own sizes: each rises to 1 and falls without a step.
+  const auto shareOf = [&](float size, float stretched) {
+    const StrokeOctave octave = strokeOctave(anchor, stretched);
+    const float at = std::log2(octave.mappingDistance / anchor.mappingDistance);
+    if (std::fabs(at - size) < 1e-3f) return 1 - octave.coarser;
+    return std::fabs(at + 1 - size) < 1e-3f ? octave.coarser : 0.0f;
+  };
+  for (const float size : {-2.0f, -1.0f, 0.0f, 1.0f, 2.0f}) {
+    EXPECT_EQ(shareOf(size, -size), 1.0f) << size;
+    float before = shareOf(size, -4);
+    for (float stretched = -4; stretched < 4; stretched += 0.01f) {
+      const float share = shareOf(size, stretched);
+      EXPECT_LE(std::fabs(share - before), 0.0201f) << size << " at " << stretched;
+      before = share;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kagefude

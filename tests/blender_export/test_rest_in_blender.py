@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The Rest pass: where surfaces rest, whatever deforms, has no material or is an instance."""
+
+import unittest
+
+from blender_case import BlenderCase
+
+EVERYTHING = """
+scene = start(40, 40)
+ground()
+rising = box("Rising", (-0.5, -0.5, 0), (0.5, 0.5, 0.6))
+rising.location = (-1.5, 0, 0)
+rising.shape_key_add(name="Basis")
+up = rising.shape_key_add(name="Up")
+for point in up.data:
+    point.co.z += 0.5
+up.value = 1.0
+bare = box("Bare", (-0.5, -0.5, 0), (0.5, 0.5, 0.6))
+bare.data.materials.clear()
+bare.location = (1.5, 0, 0)
+aside = bpy.data.collections.new("Aside")
+leaf = box("Leaf", (-0.3, -0.3, 0), (0.3, 0.3, 0.3))
+scene.collection.objects.unlink(leaf)
+aside.objects.link(leaf)
+for name, place in (("One", (-0.6, -2, 0)), ("Two", (0.6, -2, 0))):
+    shown = bpy.data.objects.new(name, None)
+    shown.instance_type, shown.instance_collection, shown.location = 'COLLECTION', aside, place
+    scene.collection.objects.link(shown)
+light("Key", 'POINT', (-2, -2, 4), energy=300, shadow_soft_size=0.3)
+tools.camera((0, -7, 5), (0, 0, 0), 50)
+"""
+
+
+class Rest(BlenderCase):
+    def test_every_object_shows_where_it_rests(self):
+        self.export(self.build(EVERYTHING), "--frames", "1", "--masks", "disc:5")
+        document, pixels = self.document(1), self.pixels(1)
+        objects = {item["name"]: item for item in document["objects"]}
+        moves = {"Ground": (0, 0, 0), "Rising": (-1.5, 0, 0.5), "Bare": (1.5, 0, 0)}
+        for name, move in moves.items():
+            self.check_places(objects[name]["index"], move, pixels)
+        corners = objects["Rising"]["rest_bounds"]
+        for corner, wanted in (("min", (-0.5, -0.5, 0.0)), ("max", (0.5, 0.5, 0.6))):
+            for value, other in zip(corners[corner], wanted):
+                self.assertAlmostEqual(value, other, 6)
+        self.assertNotIn("rest_bounds", objects["Bare"])
+        self.assertEqual(objects["Bare"]["materials"], [])
+        self.check_instances(objects["Leaf"], pixels)
+        self.assertFalse(any("instanced" in objects[name] for name in moves))
+
+    def places(self, index, pixels):
+        """(position, rest, random) of every pixel of an object."""
+        found = []
+        for y, row in enumerate(pixels["data.IndexOB.V"]):
+            for x, value in enumerate(row):
+                if value == float(index):
+                    found.append((
+                        [pixels[f"data.Position.{axis}"][y][x] for axis in "XYZ"],
+                        [pixels[f"data.Rest.{axis}"][y][x] for axis in "RGB"],
+                        pixels["data.InstanceRandom.V"][y][x]))
+        return found
+
+    def check_places(self, index, move, pixels):
+        seen = self.places(index, pixels)
+        self.assertGreater(len(seen), 10)
+        for position, rest, _ in seen:
+            for axis in range(3):
+                self.assertAlmostEqual(position[axis], rest[axis] + move[axis], 4)
+
+    def check_instances(self, leaf, pixels):
+        self.assertTrue(leaf["instanced"])
+        left, right = set(), set()
+        for position, rest, random in self.places(leaf["index"], pixels):
+            side = -0.6 if position[0] < 0 else 0.6
+            (left if side < 0 else right).add(random)
+            self.assertAlmostEqual(position[0], rest[0] + side, 4)
+            self.assertAlmostEqual(position[1], rest[1] - 2, 4)
+        self.assertEqual((len(left), len(right), len(left & right)), (1, 1, 0))
+
+
+if __name__ == "__main__":
+    unittest.main()
