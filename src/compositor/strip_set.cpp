@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <exception>
+#include <functional>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
@@ -28,6 +30,27 @@ constexpr std::string_view paintedSpaces[] = {"sRGB",
 
 float linearFromSrgb(float encoded) {
   return encoded <= 0.04045f ? encoded / 12.92f : powerOf((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+float linearFromRec709(float encoded) {
+  return encoded < 0.081f ? encoded / 4.5f : powerOf((encoded + 0.099f) / 1.099f, 1 / 0.45f);
+}
+
+/// What OpenImageIO's names for encodings mean that a configuration need not have: Rec709 (ITU-R
+/// BT.709-6, 1.2, turned round), and a plain power such as Gamma2.2 or GammaCorrected2.2.
+std::function<float(float)> knownDecoding(const std::string& space) {
+  if (space == "Rec709") return linearFromRec709;
+  for (const std::string prefix : {"GammaCorrected", "Gamma"}) {
+    if (!space.starts_with(prefix)) continue;
+    float power = 2.2f;
+    const char* const end = space.data() + space.size();
+    const char* const number = space.data() + prefix.size();
+    const auto [read, error] = std::from_chars(number, end, power);
+    if (number != end && (error != std::errc() || read != end || !(power > 0 && power < 10)))
+      return nullptr;
+    return [power](float v) { return v > 0.0f ? powerOf(v, power) : 0.0f; };
+  }
+  return nullptr;
 }
 
 /// From display-encoded sRGB; by its own curve where the configuration knows no such space.
@@ -59,18 +82,35 @@ void associate(StripPicture& picture, bool divide) {
     }
 }
 
-/// An EXR's colour is associated with its alpha, a PNG's is not; transforms want it apart.
+/// From the space that the file names, which the configuration may know by that name.
+void namedToWorking(const Colour& colour, const std::string& file, StripPicture& picture) {
+  const std::string& space = picture.space;
+  if (space.empty() || space == "sRGB")
+    return paintedToWorking(colour, picture.red, picture.green, picture.blue);
+  if (colour.hasSpace(space))
+    return colour.toWorking(picture.red, picture.green, picture.blue, space);
+  const auto decode = knownDecoding(space);
+  if (!decode)
+    throw InputError(fmt::format(
+        "strip {} says that its colours are {}, which the colour configuration {} has no space "
+        "for; say with colour.strip what they are",
+        file, space, colour.source()));
+  for (Floats* plane : {&picture.red, &picture.green, &picture.blue})
+    for (size_t i = 0; i < plane->view().pixels(); ++i) plane->row(0)[i] = decode(plane->row(0)[i]);
+}
+
+/// Transforms want the colour apart from its alpha; the painting wants it multiplied.
 Strip loadStrip(const Look& look, const Colour& colour, const std::string& name) {
   if (isBuiltinStrip(name)) return loadBuiltin(colour, name.substr(builtinPrefix.size()));
   StripPicture picture = readStrip(look.resolve(name));
   const bool transformed = !picture.sceneLinear || !look.colour.strip.empty();
-  if (picture.hasAlpha && picture.sceneLinear && transformed) associate(picture, true);
+  if (picture.associated && transformed) associate(picture, true);
   if (!look.colour.strip.empty())
     colour.toWorking(picture.red, picture.green, picture.blue, look.colour.strip);
   else if (!picture.sceneLinear)
-    paintedToWorking(colour, picture.red, picture.green, picture.blue);
+    namedToWorking(colour, look.resolve(name).string(), picture);
   if (!picture.hasAlpha) return makeStrip(picture.red, picture.green, picture.blue);
-  if (transformed) associate(picture, false);
+  if (transformed || !picture.associated) associate(picture, false);
   return makeStrip(picture.red, picture.green, picture.blue, picture.alpha);
 }
 

@@ -10,7 +10,9 @@
 #include "base/plain_file.h"
 #include "exr/image_file.h"
 #include "exr/read_channels.h"
+#include "picture/picture_file.h"
 #include "picture/png_file.h"
+#include "picture/turn_picture.h"
 
 namespace kagefude {
 namespace {
@@ -81,7 +83,59 @@ StripPicture readExrStrip(const std::filesystem::path& path) {
   strip.green = std::move(planes[1]);
   strip.blue = std::move(planes[2]);
   strip.alpha = strip.hasAlpha ? std::move(planes[3]) : Floats(strip.width(), strip.height(), 1.0f);
+  strip.associated = true;
   strip.sceneLinear = true;
+  return strip;
+}
+
+/// Names that files give to what is linear, and to what was made for a display of sRGB.
+bool saysLinear(const std::string& space) {
+  return space == "Linear" || space == "linear" || space == "lin_srgb" || space == "scene_linear";
+}
+
+/// Which channels are red, green, blue and, unless it is -1, alpha: by their places, as all formats
+/// but EXR have them.
+std::array<int, 4> placesIn(const std::filesystem::path& path, const PictureHeader& header) {
+  const auto count = static_cast<int>(header.channels.size());
+  if (count > 4) refuse(path, fmt::format("has {} channels; a picture has 1 to 4", count));
+  const bool hasAlpha = count == 2 || count == 4;
+  const int alpha = hasAlpha ? count - 1 : -1;
+  if (header.alpha != alpha)
+    refuse(path,
+           fmt::format("has {} channels, and {}; expected grey or red, green, blue, and then "
+                       "alpha",
+                       count,
+                       header.alpha < 0 ? std::string("none of them is called alpha")
+                                        : fmt::format("number {} is alpha", header.alpha + 1)));
+  return count < 3 ? std::array{0, 0, 0, alpha} : std::array{0, 1, 2, alpha};
+}
+
+StripPicture readOtherStrip(const std::filesystem::path& path) {
+  PictureFile file(path, mostPixels);
+  const PictureHeader& header = file.header();
+  const std::array<int, 4> places = placesIn(path, header);
+  const int width = header.dataWindow.width, height = header.dataWindow.height;
+  std::vector<Floats> channels;
+  std::vector<PicturePlane> planes;
+  for (int c = 0; c < static_cast<int>(header.channels.size()); ++c) {
+    channels.emplace_back(width, height);
+    planes.push_back({c, channels.back(), {}, {}});
+  }
+  file.read(planes);
+  const auto upright = [&](int place) {
+    return turnedUpright(channels[static_cast<size_t>(place)].clone(), header.orientation);
+  };
+  StripPicture strip;
+  strip.red = upright(places[0]);
+  strip.green = upright(places[1]);
+  strip.blue = upright(places[2]);
+  strip.hasAlpha = places[3] >= 0;
+  strip.alpha = strip.hasAlpha ? upright(places[3]) : Floats(strip.width(), strip.height(), 1.0f);
+  strip.associated = strip.hasAlpha && !header.unassociated;
+  strip.space = header.colourSpace;
+  const SampleType type = header.channels.front().type;
+  strip.sceneLinear = strip.space.empty() ? type == SampleType::half || type == SampleType::single
+                                          : saysLinear(strip.space);
   return strip;
 }
 
@@ -91,10 +145,9 @@ StripPicture readStrip(const std::filesystem::path& path) {
   std::error_code missing;
   if (!std::filesystem::exists(path, missing)) refuse(path, "does not exist");
   requirePlainFile(path);
-  const bool png = startsWith(path, {0x89, 'P', 'N', 'G'});
-  if (!png && !startsWith(path, {0x76, 0x2f, 0x31, 0x01}))
-    refuse(path, "cannot be read: it is neither a PNG nor an EXR file");
-  return png ? readPngStrip(path) : readExrStrip(path);
+  if (startsWith(path, {0x89, 'P', 'N', 'G'})) return readPngStrip(path);
+  if (startsWith(path, {0x76, 0x2f, 0x31, 0x01})) return readExrStrip(path);
+  return readOtherStrip(path);
 }
 
 }  // namespace kagefude

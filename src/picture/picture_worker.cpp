@@ -1,0 +1,173 @@
+#include "picture/picture_worker.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <filesystem>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/error.h"
+
+extern char** environ;
+
+namespace kagefude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* workerName = "kagefude-oiio";
+
+/// Beside this program, as in a build folder, or where an installation has it.
+std::string findWorker() {
+  std::error_code failed;
+  const fs::path self = fs::read_symlink("/proc/self/exe", failed);
+  const fs::path beside = self.parent_path() / workerName;
+  const fs::path installed =
+      (self.parent_path() / KAGEFUDE_WORKER_FOLDER / workerName).lexically_normal();
+  for (const fs::path& place : {beside, installed})
+    if (access(place.c_str(), X_OK) == 0) return place.string();
+  throw InputError(
+      fmt::format("{}, the part of kagefude that reads and writes pictures with OpenImageIO, is "
+                  "neither {} nor {}",
+                  workerName, beside.string(), installed.string()));
+}
+
+[[noreturn]] void failToStart(const std::string& program, const std::string& why) {
+  throw InputError(fmt::format("{} cannot be started: {}", program, why));
+}
+
+/// What the child's descriptors are: the socket for input, nothing for words of libraries.
+class FileActions {
+ public:
+  explicit FileActions(int socket) {
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, socket, STDIN_FILENO);
+    for (const int output : {STDOUT_FILENO, STDERR_FILENO})
+      posix_spawn_file_actions_addopen(&actions, output, "/dev/null", O_WRONLY, 0);
+  }
+  ~FileActions() { posix_spawn_file_actions_destroy(&actions); }
+  FileActions(const FileActions&) = delete;
+  FileActions& operator=(const FileActions&) = delete;
+  posix_spawn_file_actions_t actions;
+};
+
+std::string howItEnded(int status) {
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return "it takes too long to decode";
+  if (WIFSIGNALED(status))
+    return fmt::format("it is damaged in a way that its decoder did not survive (signal {})",
+                       WTERMSIG(status));
+  return fmt::format("its decoder gave up (exit {})", WEXITSTATUS(status));
+}
+
+/// Idle workers, and how many there are in all.
+struct Pool {
+  std::mutex mutex;
+  std::condition_variable freed;
+  std::vector<std::unique_ptr<PictureWorker>> idle;
+  size_t all = 0;
+};
+
+Pool& pool() {
+  static Pool pool;
+  return pool;
+}
+
+}  // namespace
+
+PictureWorker::PictureWorker() {
+  const std::string program = findWorker();
+  start(program);
+  const auto hello = socket_->receive();
+  if (!hello) {
+    end();
+    failToStart(program, "it ends at once; are OpenImageIO's libraries installed?");
+  }
+  const std::string version = hello->content->value("version", "");
+  if (version != KAGEFUDE_VERSION) {
+    end();
+    failToStart(program,
+                fmt::format("it is of version {}, and this is {}", version, KAGEFUDE_VERSION));
+  }
+}
+
+PictureWorker::~PictureWorker() { end(); }
+
+void PictureWorker::start(const std::string& program) {
+  int ends[2] = {-1, -1};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    failToStart(program, std::strerror(errno));
+  socket_ = std::make_unique<MessageSocket>(Descriptor(ends[0]));
+  const Descriptor theirs(ends[1]);
+  const FileActions files(theirs.number());
+  std::string name = program;
+  char* const arguments[] = {name.data(), nullptr};
+  const int error =
+      posix_spawn(&process_, program.c_str(), &files.actions, nullptr, arguments, environ);
+  if (error != 0) {
+    process_ = -1;
+    failToStart(program, std::strerror(error));
+  }
+}
+
+std::string PictureWorker::end() {
+  socket_.reset();
+  if (process_ <= 0) return "";
+  int status = 0;
+  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  return howItEnded(status);
+}
+
+nlohmann::json PictureWorker::ask(nlohmann::json request, const WorkerBounds& bounds, int pixels) {
+  request["memory"] = bounds.memory;
+  request["seconds"] = bounds.seconds;
+  if (socket_ && socket_->send(request, pixels))
+    if (auto answer = socket_->receive()) return std::move(*answer->content);
+  return {{"error", end()}};
+}
+
+WorkerLease::WorkerLease() {
+  constexpr std::chrono::milliseconds aStart(300);
+  std::unique_lock lock(pool().mutex);
+  if (pool().all > 0)
+    pool().freed.wait_for(lock, aStart, [] { return !pool().idle.empty() || pool().all == 0; });
+  if (!pool().idle.empty()) {
+    worker_ = std::move(pool().idle.back());
+    pool().idle.pop_back();
+    return;
+  }
+  ++pool().all;
+  lock.unlock();
+  try {
+    worker_ = std::make_unique<PictureWorker>();
+  } catch (...) {
+    lock.lock();
+    --pool().all;
+    throw;
+  }
+}
+
+WorkerLease::~WorkerLease() {
+  if (!worker_) return;  // moved
+  {
+    const std::lock_guard lock(pool().mutex);
+    if (worker_->isAlive())
+      pool().idle.push_back(std::move(worker_));
+    else
+      --pool().all;
+  }
+  pool().freed.notify_one();
+}
+
+}  // namespace kagefude

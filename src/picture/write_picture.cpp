@@ -1,0 +1,81 @@
+#include "picture/write_picture.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/printable.h"
+#include "base/temp_file.h"
+#include "image/parallel.h"
+#include "picture/picture_worker.h"
+#include "picture/shared_pixels.h"
+
+namespace kagefude {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
+  throw OutputError(fmt::format("{} cannot be written: {}", path.string(), why));
+}
+
+float heldInRange(float value) {
+  // NaN fails both comparisons and becomes 0.
+  return value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
+}
+
+/// Pixel by pixel, as OpenImageIO takes them.
+void interleave(std::span<const View<const float>> planes, bool hold, float* out) {
+  const size_t count = planes.size();
+  for (size_t c = 0; c < count; ++c)
+    parallelRows(planes[c].height, [&](int first, int end) {
+      for (int y = first; y < end; ++y) {
+        const float* const in = planes[c].row(y);
+        float* to = out + static_cast<size_t>(y) * planes[c].width * count + c;
+        for (int x = 0; x < planes[c].width; ++x, to += count)
+          *to = hold ? heldInRange(in[x]) : in[x];
+      }
+    });
+}
+
+WorkerLease workerFor(const std::filesystem::path& path) {
+  try {
+    return WorkerLease();
+  } catch (const InputError& problem) {
+    refuse(path, problem.what());
+  }
+}
+
+}  // namespace
+
+void writePicture(const std::filesystem::path& path, const PictureHeader& header,
+                  std::span<const View<const float>> planes) {
+  if (planes.size() != header.channels.size() || planes.empty())
+    refuse(path, "it has not one plane for each channel");
+  for (const View<const float>& plane : planes)
+    if (plane.width != header.dataWindow.width || plane.height != header.dataWindow.height)
+      refuse(path, "its planes are of different sizes");
+  const SampleType type = header.channels.front().type;
+  const size_t bytes = planes.front().pixels() * planes.size() * sizeof(float);
+  const SharedPixels shared(bytes);
+  interleave(planes, type != SampleType::half && type != SampleType::single,
+             reinterpret_cast<float*>(shared.data()));
+  TempFile file(path);
+  WorkerLease worker = workerFor(path);
+  constexpr uint64_t harmless = uint64_t{1} << 30;  // codecs of films keep several pictures
+  const nlohmann::json answer =
+      worker->ask({{"do", "write"},
+                   {"path", std::filesystem::absolute(file.path()).string()},
+                   {"header", toJson(header)},
+                   {"bytes", bytes}},
+                  {harmless + 6 * bytes, 600}, shared.descriptor());
+  if (answer.contains("error")) {
+    std::string words = answer.at("error");
+    const std::string temporary = file.path().filename().string();
+    for (size_t at = 0; (at = words.find(temporary, at)) != std::string::npos;)
+      words.replace(at, temporary.size(), path.filename().string());
+    refuse(path, printable(words));
+  }
+  file.commit();
+}
+
+}  // namespace kagefude
