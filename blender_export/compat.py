@@ -128,10 +128,13 @@ def has_compositing(scene):
 
 
 def remove_compositor(scene):
-    """Leave a copied scene without compositing; its original keeps its own."""
+    """Leave a scene, and copies that are made of it, without compositing."""
     if hasattr(scene, "compositing_node_group"):
         scene.compositing_node_group = None
     else:
+        if scene.node_tree:
+            # Nodes whose passes come and go leave memory behind, which Blender ends with an error for.
+            scene.node_tree.nodes.clear()
         scene.use_nodes = False
 
 

@@ -27,6 +27,7 @@ def prepare_beauty(scene, view_layer, options):
     """The artist's scene as it is, but one view layer, no compositing, and Cryptomatte on."""
     notes = []
     render_whole_frame(scene, options.scale)
+    compat.remove_compositor(scene)
     for other in scene.view_layers:
         other.use = other == view_layer
     view_layer.use_pass_cryptomatte_object = True

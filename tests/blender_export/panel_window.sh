@@ -91,7 +91,9 @@ xdotool windowfocus "$(xdotool search --onlyvisible --name . | head -n 1)"
 xdotool key Escape
 seen
 left=$(value left) top=$(value top) middle=$(($(value left) + 610))
-row() { echo $((top + 83 + $1)); }   # of a line of the open panel, by its distance from the first
+# The height of a line of the open panel, by its distance from the first: 23 is "Masks", 95 "Frames",
+# 118 their list, 187 the depth maps' size, 262 the button.
+row() { echo $((top + 83 + $1)); }
 picture 1_closed
 # The first presses may only wake the window.
 for _ in 1 2 3 4 5; do
@@ -102,31 +104,32 @@ is opened True || fail "the panel cannot be opened"
 picture 2_opened
 turn $middle "$(row 23)" 3
 until_true "the masks cannot be chosen" is masks disc:5
-turn $middle "$(row 72)" 2
+turn $middle "$(row 95)" 2
 until_true "a list of frames cannot be chosen" is frames LIST
-write $middle "$(row 164)" 64
-write $middle "$(row 95)" "2,two"
+write $middle "$(row 187)" 64
+write $middle "$(row 118)" "2,two"
 until_true "the frames cannot be written" is frame_list 2,two
 picture 3_filled_in
-click $middle "$(row 239)"
+click $middle "$(row 262)"
 picture 4_wrong_frames
 [ "$(value percent)" = -1 ] || fail "a wrong range of frames was exported"
 move $middle 600
-write $middle "$(row 95)" 1-3
-until_true "the frames cannot be mended" is frame_list 1-3
-click $middle "$(row 239)"
+write $middle "$(row 118)" 1-40
+until_true "the frames cannot be mended" is frame_list 1-40
+click $middle "$(row 262)"
 until_true "the export does not get on" moving
 picture 5_under_way
-click $middle "$(row 239)"
+click $middle "$(row 262)"
 until_true "the export cannot be cancelled" is percent -1
 picture 6_cancelled
 [ -z "$(find "$work/kagefude" -name '.*' 2>/dev/null)" ] || fail "a cancelled export left unfinished files"
-[ ! -e "$work/kagefude/shot.0003.json" ] || fail "the export ran on"
+[ ! -e "$work/kagefude/shot.0040.json" ] || fail "the export ran on"
 [ "$(value dirty)" = True ] || fail "the export hid that the open file has unsaved changes"
+rm -rf "$work/kagefude"  # frames that were done before it was cancelled
 turn $middle "$(row 23)" 2
-write $middle "$(row 95)" 2
+write $middle "$(row 118)" 2
 until_true "the frames cannot be written again" is frame_list 2
-click $middle "$(row 239)"
+click $middle "$(row 262)"
 until_true "a pair of masks was not tried" is percent 0
 until_true "an export that fails does not end" is percent -1
 picture 7_failed
@@ -134,7 +137,7 @@ picture 7_failed
 move $middle 600
 turn $middle "$(row 23)" 2 4
 until_true "the masks cannot be mended" is masks disc:5
-click $middle "$(row 239)"
+click $middle "$(row 262)"
 until_true "the export does not end" test -e "$work/kagefude/shot.0002.json"
 until_true "the panel does not see the end" is percent -1
 picture 8_finished

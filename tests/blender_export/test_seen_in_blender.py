@@ -28,6 +28,10 @@ render = scene.render
 render.use_border = render.use_multiview = render.use_motion_blur = render.use_freestyle = True
 render.film_transparent = True
 layer.use_pass_mist = True
+if hasattr(scene, "compositing_node_group"):
+    scene.compositing_node_group = bpy.data.node_groups.new("Grade", 'CompositorNodeTree')
+else:
+    scene.use_nodes = True  # with nodes whose passes come and go
 other = scene.view_layers.new("Sketch")
 sets = layer.freestyle_settings.linesets
 for lines in sets or [sets.new("Lines")]:
@@ -56,7 +60,7 @@ class Seen(BlenderCase):
     def test_what_is_left_out_is_said_once_and_what_is_cut_is_marked(self):
         said = self.notes(self.export(self.build(EVERYTHING), "--frames", "1,2", "--masks",
                                       "disc:5", "--scale", "2"))
-        for words in ("render border is ignored", "stereo is ignored", "not Sketch", "Mist pass",
+        for words in ("render border is ignored", "stereo is ignored", "not Sketch", "Mist pass", "compositing is not",
                       "depth of field", "motion blur", "80x80 pixels", "no size"):
             self.assertEqual(len([note for note in said if words in note]), 1, (words, said))
         document, pixels = self.document(1), self.pixels(1)
