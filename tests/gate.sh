@@ -1,25 +1,37 @@
 #!/usr/bin/env bash
-# Unit tests under the address and undefined-behaviour sanitizers, the batch loop under the thread
-# sanitizer, and a minute of fuzzing for each reader. By hand: clang builds for most of an hour.
-#   tests/gate.sh [SECONDS]
+# The gate: the batch loop under the thread sanitizer; the library under the address and
+# undefined-behaviour sanitizers with plane indices checked, tried by the unit tests of build/release
+# and by a minute of fuzzing for each reader.
+#   tests/gate.sh [build|tests|fuzz] [SECONDS]     without a step: all of them
+# `build` wants the release build configured; its tests are compiled there and linked here.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-.ci/ensure_packages build test gate
+step=all
+case ${1:-} in build | tests | fuzz) step=$1; shift ;; esac
+seconds=${1:-60}
 export ASAN_OPTIONS=allocator_may_return_null=0:detect_stack_use_after_return=1
 export UBSAN_OPTIONS=print_stacktrace=1
-# Tests that fork would wait for ever for children that the sanitizer ends.
-export TSAN_OPTIONS=die_after_fork=0:halt_on_error=1:suppressions=$PWD/tests/tsan.supp
+export TSAN_OPTIONS=halt_on_error=1:suppressions=$PWD/tests/tsan.supp
 
-echo "-- thread sanitizer: batch tests"
-[ -f build/tsan/build.ninja ] || cmake --preset tsan >/dev/null
-cmake --build --preset tsan
-build/tsan/kagefude_batch_tests --gtest_brief=1
+# The sweep compares pictures of every setting: minutes here, and each of its passes has its own tests.
+not_here='-*Sweep*'
 
-echo "-- address and undefined-behaviour sanitizers: unit tests"
-[ -f build/asan/build.ninja ] || cmake --preset asan >/dev/null
-cmake --build --preset asan
-build/asan/kagefude_tests --gtest_brief=1
-build/asan/kagefude_exr_tests --gtest_brief=1
+build() {
+  .ci/ensure_packages build test gate
+  ninja -C build/release kagefude_tests kagefude_exr_tests >/dev/null
+  for preset in tsan asan; do
+    cmake --preset "$preset" >/dev/null
+    cmake --build --preset "$preset"
+  done
+}
+tests() {
+  echo "-- thread sanitizer: batch tests"
+  build/tsan/kagefude_batch_tests --gtest_brief=1
+  echo "-- address and undefined-behaviour sanitizers: unit tests"
+  build/asan/kagefude_tests --gtest_brief=1 --gtest_filter="$not_here"
+  build/asan/kagefude_exr_tests --gtest_brief=1
+}
 
-echo "-- fuzzing"
-tests/fuzz/run.sh "${1:-60}"
+[ "$step" != all ] && [ "$step" != build ] || build
+[ "$step" != all ] && [ "$step" != tests ] || tests
+[ "$step" != all ] && [ "$step" != fuzz ] || tests/fuzz/run.sh "$seconds"

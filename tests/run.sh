@@ -10,6 +10,7 @@ for argument in "$@"; do
     *) echo "usage: tests/run.sh [--long]" >&2; exit 2 ;;
   esac
 done
+trap 'kill $(jobs -p) 2>/dev/null || true' EXIT
 heading() { echo "== $1 (after $((SECONDS / 60)) min $((SECONDS % 60)) s)"; }
 
 .ci/ensure_packages build test render
@@ -17,6 +18,13 @@ heading "build"
 [ -f build/release/build.ninja ] || cmake --preset release >/dev/null
 cmake --build --preset release
 export KAGEFUDE_LONG_TESTS=$long
+# The gate is built and fuzzes while tests run that leave a core idle.
+gate_log=build/release/gate.log
+if [ -n "$long" ]; then
+  .ci/ensure_packages gate
+  nice -n 19 tests/gate.sh build >"$gate_log" 2>&1 &
+  gate=$!
+fi
 heading "exporter"
 python3 -m unittest discover -s tests/blender_export -p 'test_*.py'
 python3 -m unittest discover -s tests/blender_export -p 'comped_*.py'
@@ -24,6 +32,12 @@ heading "unit tests: each in a process of its own, then all in one in a new orde
 log=build/release/unit_tests.log
 ctest --preset release -j2 >"$log" || { cat "$log"; exit 1; }
 tail -n 6 "$log"
+if [ -n "$long" ]; then
+  heading "the rest of the gate's build"
+  wait "$gate" || { cat "$gate_log"; exit 1; }
+  nice -n 19 tests/gate.sh fuzz 60 >"$gate_log" 2>&1 &
+  fuzzing=$!
+fi
 
 shopt -s nullglob
 scripts=(tests/e2e/*_test.sh)
@@ -32,5 +46,12 @@ for script in "${scripts[@]}"; do
   heading "$script"
   bash "$script"
 done
+if [ -n "$long" ]; then
+  heading "sanitizers: thread; then address and undefined behaviour"
+  tests/gate.sh tests
+  heading "fuzzing, since the unit tests"
+  wait "$fuzzing" || { cat "$gate_log"; exit 1; }
+  grep '^fuzz' "$gate_log"
+fi
 heading "done"
 echo "$((${#scripts[@]})) scripts passed, 0 failed"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <map>
 #include <string>
 
 #include "base/error.h"
@@ -13,6 +14,17 @@ namespace kagefude {
 namespace {
 
 constexpr size_t longestName = 255;
+
+/// Bytes of the types that have one length, as OpenEXR's file layout lists them.
+const std::map<std::string, uint64_t, std::less<>> fixedSizes = {
+    {"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+    {"compression", 1}, {"double", 8},   {"envmap", 1},
+    {"float", 4},       {"int", 4},      {"keycode", 28},
+    {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
+    {"m44f", 64},       {"m44d", 128},   {"rational", 8},
+    {"tiledesc", 9},    {"timecode", 8}, {"v2i", 8},
+    {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+    {"v3f", 12},        {"v3d", 24},     {"deepImageState", 1}};
 
 /// A cursor over the headers. A read beyond the end, or a name that is none, ends the walk.
 class HeaderWalk {
@@ -34,7 +46,7 @@ class HeaderWalk {
     bool any = false;
     for (std::string name = text(); file_ && !name.empty(); name = text()) {
       any = true;
-      text();  // the type
+      const std::string type = text();
       const uint32_t size = word();
       if (!file_) return false;
       const auto at = static_cast<uint64_t>(file_.tellg());
@@ -43,9 +55,49 @@ class HeaderWalk {
             "{} cannot be read as an EXR file: its attribute {} claims {} bytes, and the "
             "file has {}",
             path_.string(), name, size, bytes_));
+      const uint64_t taken = takenBytes(type, size);
+      if (taken != size)
+        throw InputError(
+            fmt::format("{} cannot be read as an EXR file: its attribute {} has {} "
+                        "bytes, and a {} there takes {}",
+                        path_.string(), name, size, type, taken));
+      file_.clear();
       file_.seekg(static_cast<std::streamoff>(at + size));
     }
     return any && file_.good();
+  }
+
+  /// How many bytes OpenEXR takes for a value of `type` that stands here and is said to have
+  /// `size`. It goes by the value and not by the size: where the two differ it would find claims of
+  /// its own in the bytes that follow.
+  uint64_t takenBytes(const std::string& type, uint32_t size) {
+    const auto fixed = fixedSizes.find(type);
+    if (fixed != fixedSizes.end()) return fixed->second;
+    if (type == "preview") {
+      const uint64_t width = word(), height = word();
+      return 8 + 4 * width * height;
+    }
+    if (type == "chlist") return channelBytes();
+    if (type == "stringvector") return textBytes(size);
+    return size;
+  }
+  uint64_t channelBytes() {
+    constexpr uint64_t afterName = 16;
+    uint64_t bytes = 1;
+    for (std::string name = text(); file_ && !name.empty(); name = text()) {
+      bytes += name.size() + 1 + afterName;
+      file_.seekg(afterName, std::ios::cur);
+    }
+    return bytes;
+  }
+  uint64_t textBytes(uint32_t size) {
+    uint64_t bytes = 0;
+    while (file_ && bytes < size) {
+      const uint32_t length = word();
+      bytes += 4 + uint64_t{length};
+      file_.seekg(static_cast<std::streamoff>(length), std::ios::cur);
+    }
+    return bytes;
   }
 
   uint32_t word() {

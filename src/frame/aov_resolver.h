@@ -72,7 +72,6 @@ inline constexpr Parameter aovNamesParameters[] = {
     plain<&AovNames::vector>("vector", "motion vector pass"),
     plain<&AovNames::albedo>("albedo", "diffuse colour pass"),
     plain<&AovNames::beauty>("beauty", "rendered picture"),
-    plain<&AovNames::shadow>("shadow", "visibility pass made by the renderer"),
     plain<&AovNames::cryptoObject>("crypto_object", "Cryptomatte of objects"),
     plain<&AovNames::cryptoMaterial>("crypto_material", "Cryptomatte of materials"),
     plain<&AovNames::surface>("surface", "surface ids made elsewhere; taken instead of objects"),

@@ -64,9 +64,13 @@ class TestFrame {
     addObject("Thing", 1, {-1, -1, -1}, {1, 1, 1});
   }
 
-  /// The channel "ViewLayer.<name>", made when it is first asked for.
+  /// The channel of this full name, made when it is first asked for.
+  Floats& channel(const std::string& name, float value = 0.0f) {
+    return planes_.try_emplace(name, Floats(width_, height_, value)).first->second;
+  }
+  /// The channel "ViewLayer.<name>".
   Floats& plane(const std::string& name, float value = 0.0f) {
-    return planes_.try_emplace("ViewLayer." + name, Floats(width_, height_, value)).first->second;
+    return channel("ViewLayer." + name, value);
   }
   void setVector(const std::string& name, int x, int y, const V3f& v) {
     plane(name + ".X")(x, y) = v.x;

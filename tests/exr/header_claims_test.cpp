@@ -34,6 +34,27 @@ TEST(HeaderClaims, AnAttributeBeyondTheFilesEndIsRefusedByName) {
     }
 }
 
+// OpenEXR reads these by their contents: found by fuzzing, a list of channels that went on beyond
+// its size let the bytes behind it claim 1.7 GB.
+TEST(HeaderClaims, AValueThatDoesNotEndWhereItsSizeSaysIsRefusedByName) {
+  const TestFolder folder;
+  const std::string channel = std::string("A") + '\0' + std::string(16, '\1');
+  const std::string wide{"\xff\xff\x00\x00\xff\xff\x00\x00", 8};
+  const std::string longText{"\xff\xff\xff\x7fxx", 6};
+  const std::pair<const char*, std::string> values[] = {{"chlist", channel + channel},
+                                                        {"box2i", std::string(12, '\0')},
+                                                        {"preview", wide},
+                                                        {"stringvector", longText}};
+  for (const auto& [type, value] : values) {
+    const std::string file =
+        folder.write("a.exr", start + attribute("owner", type, uint32_t(value.size())) + value +
+                                  attribute("big", "opaque", 0x60000000) + std::string(64, '\2'));
+    for (const std::string& message : {messageOf<InputError>([&] { openImage(file); }),
+                                       messageOf<InputError>([&] { FastExr::open(file); })})
+      EXPECT_NE(message.find("attribute owner has"), std::string::npos) << type << ": " << message;
+  }
+}
+
 TEST(HeaderClaims, LaterPartsAreLookedAtToo) {
   const TestFolder folder;
   std::string several = start;

@@ -19,15 +19,14 @@ struct ColourRows {
 
   /// The pixels x to x + 3.
   void storeFour(int x, const Rgba* four) {
-    using Lanes = int __attribute__((vector_size(16)));
-    const Rgba rg01 = __builtin_shuffle(four[0], four[1], Lanes{0, 4, 1, 5});
-    const Rgba rg23 = __builtin_shuffle(four[2], four[3], Lanes{0, 4, 1, 5});
-    const Rgba ba01 = __builtin_shuffle(four[0], four[1], Lanes{2, 6, 3, 7});
-    const Rgba ba23 = __builtin_shuffle(four[2], four[3], Lanes{2, 6, 3, 7});
-    const Rgba planes[4] = {__builtin_shuffle(rg01, rg23, Lanes{0, 1, 4, 5}),
-                            __builtin_shuffle(rg01, rg23, Lanes{2, 3, 6, 7}),
-                            __builtin_shuffle(ba01, ba23, Lanes{0, 1, 4, 5}),
-                            __builtin_shuffle(ba01, ba23, Lanes{2, 3, 6, 7})};
+    const Rgba rg01 = __builtin_shufflevector(four[0], four[1], 0, 4, 1, 5);
+    const Rgba rg23 = __builtin_shufflevector(four[2], four[3], 0, 4, 1, 5);
+    const Rgba ba01 = __builtin_shufflevector(four[0], four[1], 2, 6, 3, 7);
+    const Rgba ba23 = __builtin_shufflevector(four[2], four[3], 2, 6, 3, 7);
+    const Rgba planes[4] = {__builtin_shufflevector(rg01, rg23, 0, 1, 4, 5),
+                            __builtin_shufflevector(rg01, rg23, 2, 3, 6, 7),
+                            __builtin_shufflevector(ba01, ba23, 0, 1, 4, 5),
+                            __builtin_shufflevector(ba01, ba23, 2, 3, 6, 7)};
     std::memcpy(r + x, &planes[0], sizeof(Rgba));
     std::memcpy(g + x, &planes[1], sizeof(Rgba));
     std::memcpy(b + x, &planes[2], sizeof(Rgba));
