@@ -15,6 +15,9 @@ import bpy
 from . import arguments, output_names
 
 _PROGRESS = re.compile(r"Progress: (\d+)%")
+# Blender's line above a Python traceback, and the sentence that ends one.
+_TRACEBACK = "Error: Python:"
+_RAISED = re.compile(r"[\w.]*(Error|Exception)(: .*)?")
 SECONDS_TO_END = 5.0
 
 
@@ -26,6 +29,7 @@ class BackgroundExport:
         options = arguments.parse_arguments(words)
         self._names = output_names.parse_output(options.output, len(options.frames))
         self.percent, self.status, self.error, self.finished = 0, "Starting", None, False
+        self._in_traceback = False
         self._folder = tempfile.mkdtemp(prefix="kagefude-")
         copy = os.path.join(self._folder, "shot.blend")
         try:
@@ -78,6 +82,10 @@ class BackgroundExport:
         found = _PROGRESS.fullmatch(line)
         if found:
             self.percent = int(found[1])
+        elif line.startswith(_TRACEBACK):
+            self._in_traceback = True
+        elif self._in_traceback and _RAISED.fullmatch(line):
+            self.error, self._in_traceback = self.error or line, False
         elif line.startswith("Error:"):
             self.error = self.error or line[len("Error:"):].strip()
         elif line.startswith(("frame ", "note: ")):

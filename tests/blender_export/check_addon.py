@@ -66,12 +66,26 @@ def check_export(output):
     failing = background(["--output", output, "--frames=2", "--light=Spott"])
     wait_for(failing)
     assert "did you mean 'Spot'" in failing.error, failing.error
+    check_traceback(background)
     stopped = background(["--output", output, "--frames=1-1000", "--light=Spot"])
     stopped.cancel()
     assert stopped.finished and stopped.error == "cancelled"
     assert open_file_state() == before, "the open file was changed"
     left = [name for name in os.listdir(os.path.dirname(output)) if ".part" in name]
     assert not left, left
+
+
+def check_traceback(background):
+    """Of a traceback the sentence that ends it is shown, not its first line."""
+    ended = background(["--output", "/nowhere/a.####.exr", "--frames=2", "--light=Spott"])
+    wait_for(ended)
+    ended.error = None
+    for line in ("Error: Python: Traceback (most recent call last):", 'File "a.py", line 1',
+                 "AttributeError: 'NoneType' object has no attribute 'use_chaining'",
+                 "Error: script failed, file: 'a.py', exiting."):
+        ended._take(line)
+    assert ended.error == "AttributeError: 'NoneType' object has no attribute 'use_chaining'", \
+        ended.error
 
 
 def main():
