@@ -103,7 +103,7 @@ touch -d '2001-01-01' bare/N/shot.left.0001.exr
 quiet bare/N/shot.left.0001.exr --mulc 1,1,1 --attrib touched yes -o bare/N/shot.left.0001.exr
 grep -q '1 kept' <(run) && fail "a changed normal file is not noticed" || pass
 
-# The README's oiiotool chains: a crop before the comp is the comp's crop; a painted plate as beauty;
+# The README's oiiotool chains: a crop before the comp is the comp's crop; a painted plate as albedo;
 # a small picture for the web after it.
 folder crop
 quiet "$whole" --crop 64x48+80+40 -o crop/shot.0001.exr
@@ -113,12 +113,12 @@ folder plate
 size=$(iinfo whole.exr | grep -oE '[0-9]+ x +[0-9]+' | tr -d ' ')
 quiet --create "$size" 3 --fill:color=0.5,0.5,0.5 "$size" -d uint8 -o grade.png
 cp files/shot.P.0001.exr files/shot.N.0001.exr files/shot.masks.0001.exr plate/
-quiet "$whole" --ch $position,$ids -o plate/shot.0001.exr   # no albedo: the colour is the beauty's
+quiet "$whole" --ch $position,$ids -o plate/shot.0001.exr   # the colour is the plate
 # plate BRIGHTNESS: the corner of the comp with a plate that many times as bright.
 plate() {
   quiet grade.png --colorconvert sRGB linear --mulc "$1" -d half -o plate/plate.0001.exr
-  comp plate/shot.0001.exr plate.exr --set frame.beauty=plate --set output.colour=float --set \
-    'frame.files=["shot.N.####.exr", "shot.masks.####.exr", "plate.####.exr"]' 2>error || fail "plate: $(cat error)"
+  comp plate/shot.0001.exr plate.exr --set frame.albedo=plate --set output.colour=float --set \
+    'frame.files=["shot.N.####.exr", "shot.masks.####.exr", "plate.####.exr"]' >said 2>error || fail "plate: $(cat error)"
   oiiotool plate.exr --ch R --crop 1x1+0+0 --printstats 2>/dev/null | awk '/Stats Min/ { print $3; exit }'
 }
 once=$(plate 1)
