@@ -123,7 +123,7 @@ plate() {
 }
 once=$(plate 1)
 twice=$(plate 2)
-ratio=$(awk -v a="$once" -v b="$twice" 'BEGIN { print a > 0.05 ? b / a : 0 }')
+ratio=$(awk -v a="$once" -v b="$twice" 'BEGIN { print (a > 0.05 ? b / a : 0) }')
 awk -v r="${ratio:-0}" 'BEGIN { exit !(r > 1.99 && r < 2.01) }' && pass || fail "a plate gives $once, one twice as bright $twice"
 quiet whole.exr --ch R,G,B --resize 50% --colorconvert linear sRGB -d uint8 -o small.png
 [ -s small.png ] && pass || fail "no small.png"
