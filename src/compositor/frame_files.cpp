@@ -16,6 +16,8 @@ bool wantsCasters(const FrameLight& light) {
 
 std::vector<std::filesystem::path> filesBeside(const FramePlan& plan) {
   std::set<std::filesystem::path> files;
+  for (const Part& part : plan.image.parts)
+    if (part.file != plan.image.path) files.insert(part.file);
   for (const FrameLight& light : plan.lights) {
     if (light.depthMap) files.insert(light.depthMap->file);
     if (!light.blob.empty()) files.insert(light.blob);

@@ -7,9 +7,9 @@
 
 namespace kagefude {
 
-/// Every file that decides a frame's pixels beside the image and its JSON: depth maps, the blob's
-/// pictures, casters' meshes and Cryptomattes' manifests, each once, in a fixed order, whether they
-/// are there or not.
+/// Every file that decides a frame's pixels beside the image and its JSON: its other files, depth
+/// maps, the blob's pictures, casters' meshes and Cryptomattes' manifests, each once, in a fixed
+/// order, whether they are there or not.
 std::vector<std::filesystem::path> filesBeside(const FramePlan& plan);
 
 }  // namespace kagefude

@@ -150,6 +150,16 @@ void planGrounds(const Look& look, const AovNames& names, FramePlan& plan) {
   }
 }
 
+/// Integers hold 0..1 in steps, mostly encoded for a display: no positions, and no light.
+void refuseIntegers(const ImageFile& image, const Aov& pass) {
+  const Part& part = image.parts[static_cast<size_t>(image.findChannel(pass.channels[0])->part)];
+  if (part.ofIntegers)
+    throw InputError(fmt::format(
+        "{} holds {} in integers, which are neither scene-linear nor without bounds; render it to "
+        "EXR or a float TIFF, or convert a picture (oiiotool --colorconvert sRGB linear -d float)",
+        part.file.string(), pass.name.empty() ? "the beauty" : pass.name));
+}
+
 /// Whether two lights are so alike that another one may lead the strokes in the next frame.
 bool leadMayChange(const Look& look, const FramePlan& plan) {
   if (!plan.sidecar || plan.sidecar->shot || plan.lights.size() < 2) return false;
@@ -187,7 +197,8 @@ FramePlan planFrame(const Look& asked, const std::filesystem::path& path, int fr
   const Look look = inRenderedPixels(asked);
   FramePlan plan;
   plan.frame = frame;
-  plan.image = openFrame(path, view.empty() ? look.frame.view : view);
+  const std::string& taken = view.empty() ? look.frame.view : view;
+  plan.image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken));
   if (view.empty() && !look.frame.view.empty() && plan.image.views.empty())
     plan.warnings.push_back(
         fmt::format("the file names no views; all of it is taken for the {} "
@@ -206,6 +217,8 @@ FramePlan planFrame(const Look& asked, const std::filesystem::path& path, int fr
   if (plan.sidecar) plan.spaces.cameraFromWorld = plan.sidecar->camera.cameraFromWorld;
   plan.albedo = findAov(plan.image, names, AovKind::albedo);
   plan.beauty = findAov(plan.image, names, AovKind::beauty);
+  for (const auto& pass : {std::optional(plan.position), plan.albedo, plan.beauty})
+    if (pass) refuseIntegers(plan.image, *pass);
   if (plan.sidecar && !plan.sidecar->linesLayer.empty())
     for (const char* channel : {"R", "G", "B", "A"})
       plan.lines.push_back(requireLinesChannel(plan, channel));

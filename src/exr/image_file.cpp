@@ -85,6 +85,7 @@ Part describePart(const std::filesystem::path& path, const Imf::Header& header,
   part.dataWindow = clampedWindow(header.dataWindow());
   part.compression = nameOf(header.compression());
   part.tiled = header.hasTileDescription();
+  part.file = path;
   const bool loss = part.compression.starts_with("dwa");
   checkClaim(path, part.dataWindow.width, part.dataWindow.height, bytesPerPixel, fileBytes, loss);
   return part;
@@ -185,6 +186,7 @@ ImageFile openImage(const std::filesystem::path& path) {
   auto headers = std::make_shared<std::vector<Imf::Header>>(readHeaders(path));
   for (size_t i = 0; i < headers->size(); ++i) {
     file.parts.push_back(describePart(path, (*headers)[i], fileBytes));
+    file.parts.back().place = static_cast<int>(i);
     addPartChannels(file, (*headers)[i], static_cast<int>(i));
   }
   nameChannels(file);
@@ -201,6 +203,40 @@ ImageFile openImage(const std::filesystem::path& path) {
   // One plane of the joined window: parts that lie far apart claim what none of them does.
   if (file.parts.size() > 1) checkClaim(path, file.width, file.height, 4, fileBytes);
   return file;
+}
+
+ImageFile joinImages(std::vector<ImageFile> images, const std::vector<std::string>& layers) {
+  ImageFile all;
+  all.path = images.front().path;
+  auto headers = std::make_shared<std::vector<Imf::Header>>();
+  uint64_t bytes = 0;
+  for (size_t i = 0; i < images.size(); ++i) {
+    ImageFile& image = images[i];
+    const Window &first = images.front().displayWindow, &own = image.displayWindow;
+    if (own != first)
+      throw InputError(fmt::format(
+          "{} is a picture of {} x {} at ({}, {}), but {} is one of {} x {} at ({}, {}); the files "
+          "of a frame have one size",
+          image.path.string(), own.width, own.height, own.x, own.y, all.path.string(), first.width,
+          first.height, first.x, first.y));
+    bytes += std::filesystem::file_size(image.path);
+    const auto offset = static_cast<int>(all.parts.size());
+    if (image.parts.size() == 1) image.parts.front().name = layers[i];
+    for (Channel channel : image.channels) {
+      channel.part += offset;
+      channel.name = channel.nameInPart;
+      all.channels.push_back(std::move(channel));
+    }
+    all.parts.insert(all.parts.end(), image.parts.begin(), image.parts.end());
+    headers->insert(headers->end(), image.headers->begin(), image.headers->end());
+  }
+  all.headers = std::move(headers);
+  nameChannels(all);
+  all.ownParts.resize(all.parts.size());
+  std::iota(all.ownParts.begin(), all.ownParts.end(), 0);
+  describeOwnParts(all);
+  checkClaim(all.path, all.width, all.height, 4, bytes);
+  return all;
 }
 
 void describeOwnParts(ImageFile& file) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,16 @@ struct Channel {
   int part = 0;
 };
 
+struct PlaneTarget;
+
+/// Reads the pixels of a part that is no EXR's; see picture/frame_picture.h.
+class PlaneSource {
+ public:
+  virtual ~PlaneSource() = default;
+  /// Fills planes of the part's own window. Throws InputError.
+  virtual void read(std::span<const PlaneTarget> targets) const = 0;
+};
+
 /// One part of a file. Files with a single part have one of these, mostly without a name.
 struct Part {
   std::string name;
@@ -38,6 +49,10 @@ struct Part {
   Window dataWindow;
   std::string compression;  ///< none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa or dwab
   bool tiled = false;
+  std::filesystem::path file;                 ///< that holds it
+  int place = 0;                              ///< among the parts of that file
+  std::shared_ptr<const PlaneSource> source;  ///< what reads it; null: it is an EXR's
+  bool ofIntegers = false;  ///< of a picture whose samples are integers: 0..1 in steps
 };
 
 /// The headers of an EXR file, and nothing of its pixels. The display window, the codec and the
@@ -79,6 +94,12 @@ struct ImageFile {
 /// them. Nothing that depends on the claimed size is allocated before that check. Cost: the header,
 /// plus 8 bytes a chunk.
 ImageFile openImage(const std::filesystem::path& path);
+
+/// Several files of one frame as one image whose parts are theirs, in that order. Of a file of one
+/// part `layers` gives the layer of channels that have none ("" leaves them bare), as a part's name
+/// does; where two channels have one name, the later one is numbered. The path is the first one's.
+/// Throws InputError when the display windows differ, or the joined window is absurd (checkClaim).
+ImageFile joinImages(std::vector<ImageFile> images, const std::vector<std::string>& layers);
 
 /// Sets the data window to what covers the own parts' windows, and what is the first own part's.
 void describeOwnParts(ImageFile& file);

@@ -60,15 +60,15 @@ Imf::FrameBuffer frameBufferOf(const ImageFile& file, int part,
 }
 
 // Rows [first, end), counted from the data window's top.
-void readRows(const ImageFile& file, int part, const Imf::FrameBuffer& buffer, int first, int end) {
-  Imf::MultiPartInputFile input(file.path.c_str(), 0, false);
-  Imf::InputPart inputPart(input, part);
+void readRows(const Part& part, const Imf::FrameBuffer& buffer, int first, int end) {
+  Imf::MultiPartInputFile input(part.file.c_str(), 0, false);
+  Imf::InputPart inputPart(input, part.place);
   const Imath::Box2i window = inputPart.header().dataWindow();
-  const Window& expected = file.parts[static_cast<size_t>(part)].dataWindow;
+  const Window& expected = part.dataWindow;
   if (window.min.x != expected.x || window.min.y != expected.y ||
       int64_t{window.max.x} - window.min.x + 1 != expected.width ||
       int64_t{window.max.y} - window.min.y + 1 != expected.height) {
-    throw InputError(file.path.string() + " changed while it was read");
+    throw InputError(part.file.string() + " changed while it was read");
   }
   inputPart.setFrameBuffer(buffer);
   inputPart.readPixels(window.min.y + first, window.min.y + end - 1);
@@ -76,13 +76,12 @@ void readRows(const ImageFile& file, int part, const Imf::FrameBuffer& buffer, i
 
 // Each band has its own stream, so that bands decode side by side on the process's thread pool and
 // OpenEXR's own pool of threads is never started.
-void readPart(const ImageFile& file, int part, const Imf::FrameBuffer& buffer) {
-  const int height = file.parts[static_cast<size_t>(part)].dataWindow.height;
+void readPart(const Part& part, const Imf::FrameBuffer& buffer) {
+  const int height = part.dataWindow.height;
   const int threads = tbb::this_task_arena::max_concurrency();
   const int chunks = (height + bandRows - 1) / bandRows;
   const int grain = (chunks + threads - 1) / threads * bandRows;
-  parallelRows(height, grain,
-               [&](int first, int end) { readRows(file, part, buffer, first, end); });
+  parallelRows(height, grain, [&](int first, int end) { readRows(part, buffer, first, end); });
 }
 
 ExrTarget fastTarget(const ExrPart& part, const Window& window, const PlaneTarget& target) {
@@ -100,19 +99,20 @@ ExrTarget fastTarget(const ExrPart& part, const Window& window, const PlaneTarge
 // False when the part is not of the plain kind that the fast path reads.
 bool readFast(const FastExr& fast, const ImageFile& file, int number,
               std::span<const PlaneTarget> targets) {
-  const auto index = static_cast<size_t>(number);
-  if (index >= fast.parts().size() || !fast.parts()[index].readable) return false;
-  const ExrPart& part = fast.parts()[index];
-  const Window& window = file.parts[index].dataWindow;
+  const Part& own = file.parts[static_cast<size_t>(number)];
+  const auto place = static_cast<size_t>(own.place);
+  if (place >= fast.parts().size() || !fast.parts()[place].readable) return false;
+  const ExrPart& part = fast.parts()[place];
+  const Window& window = own.dataWindow;
   std::vector<ExrTarget> wanted;
   for (const PlaneTarget& target : targets) {
     if (target.channel->part != number) continue;
     wanted.push_back(fastTarget(part, window, target));
     if (part.data != window || wanted.back().channel < 0) {
-      throw InputError(file.path.string() + " changed while it was read");
+      throw InputError(own.file.string() + " changed while it was read");
     }
   }
-  if (!wanted.empty()) fast.read(number, wanted);
+  if (!wanted.empty()) fast.read(own.place, wanted);
   return true;
 }
 
@@ -162,24 +162,41 @@ void readJoined(const ImageFile& file, std::span<const PlaneTarget> targets) {
   for (const auto& entry : cropped) placePlane(file, own[entry.first], targets[entry.first]);
 }
 
+// Reads one part with whatever reads files of its kind. `fast` is that of the part's file.
+void readPartPlanes(const ImageFile& file, int number, const std::optional<FastExr>& fast,
+                    std::span<const PlaneTarget> targets) {
+  const Part& part = file.parts[static_cast<size_t>(number)];
+  if (part.source) {
+    std::vector<PlaneTarget> own;
+    std::copy_if(targets.begin(), targets.end(), std::back_inserter(own),
+                 [&](const PlaneTarget& target) { return target.channel->part == number; });
+    if (!own.empty()) part.source->read(own);
+    return;
+  }
+  if (fast && readFast(*fast, file, number, targets)) return;
+  const auto buffer = frameBufferOf(file, number, targets);
+  if (buffer.begin() != buffer.end()) readPart(part, buffer);
+}
+
 }  // namespace
 
 void readPlanes(const ImageFile& file, std::span<const PlaneTarget> targets) {
   if (targets.empty()) return;
-  const auto fast = FastExr::open(file.path);
-  try {
-    for (size_t part = 0; part < file.parts.size(); ++part) {
-      if (fast && readFast(*fast, file, static_cast<int>(part), targets)) continue;
-      const auto buffer = frameBufferOf(file, static_cast<int>(part), targets);
-      if (buffer.begin() != buffer.end()) readPart(file, static_cast<int>(part), buffer);
+  std::optional<FastExr> fast;
+  for (size_t i = 0; i < file.parts.size(); ++i) {
+    const Part& part = file.parts[i];
+    try {
+      const bool known = i > 0 && file.parts[i - 1].file == part.file;
+      if (!known) fast = part.source ? std::nullopt : FastExr::open(part.file);
+      readPartPlanes(file, static_cast<int>(i), fast, targets);
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& problem) {
+      throw InputError(
+          fmt::format("{} is truncated or damaged: {}", part.file.string(), problem.what()));
     }
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& problem) {
-    throw InputError(
-        fmt::format("{} is truncated or damaged: {}", file.path.string(), problem.what()));
   }
 }
 

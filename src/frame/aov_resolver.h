@@ -42,9 +42,10 @@ inline constexpr std::string_view normalRangeNames[] = {"auto", "-1..1", "0..1"}
 /// named with its layer ("fg.Position"), without ("Position", then `layer` applies), or by a single
 /// channel ("fg.Depth.Z").
 struct AovNames {
-  std::string layer;        ///< of the data passes
-  std::string beautyLayer;  ///< of the beauty pass
-  std::string view;         ///< of a multi-view file ("left")
+  std::string layer;               ///< of the data passes
+  std::string beautyLayer;         ///< of the beauty pass
+  std::string view;                ///< of a multi-view file ("left")
+  std::vector<std::string> files;  ///< patterns of the frame's other files, see frame_group.h
   std::string position, normal, depth, objectIndex, materialIndex, vector, albedo, beauty, shadow;
   std::string cryptoObject, cryptoMaterial;
   std::string surface;  ///< surface ids made elsewhere; has no name of its own to be found by
@@ -64,6 +65,12 @@ inline constexpr Parameter aovNamesParameters[] = {
     plain<&AovNames::beautyLayer>("beauty_layer",
                                   "layer of the beauty pass; empty: found, or as the sidecar says"),
     plain<&AovNames::view>("view", "view of a multi-view file, such as left"),
+    plain<&AovNames::files>(
+        "files",
+        "other files of the same frame, relative to it, such as shot.N.####.exr or "
+        "N=normals.####.tif "
+        "(%V is the view); their channels join the frame's, bare ones under the name before = or "
+        "that the file's name adds"),
     plain<&AovNames::position>("position", "world position pass"),
     plain<&AovNames::normal>("normal", "world normal pass"),
     plain<&AovNames::depth>("depth", "camera depth pass"),

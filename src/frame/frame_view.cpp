@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "frame/aov_names.h"
+#include "picture/frame_picture.h"
 
 namespace kagefude {
 namespace {
@@ -147,8 +148,17 @@ ImageFile takeView(ImageFile file, const std::string& view) {
   return file;
 }
 
-ImageFile openFrame(const std::filesystem::path& path, const std::string& view) {
-  return takeView(openImage(path), view);
+ImageFile openFrame(const std::filesystem::path& path, const std::string& view,
+                    const std::vector<GroupFile>& others) {
+  std::vector<ImageFile> images;
+  images.push_back(openAnyImage(path));
+  if (others.empty()) return takeView(std::move(images.front()), view);
+  std::vector<std::string> layers = {""};
+  for (const GroupFile& other : others) {
+    images.push_back(openAnyImage(other.path));
+    layers.push_back(other.layer);
+  }
+  return takeView(joinImages(std::move(images), layers), view);
 }
 
 }  // namespace kagefude

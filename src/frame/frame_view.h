@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "exr/image_file.h"
+#include "frame/frame_group.h"
 
 namespace kagefude {
 
@@ -24,8 +25,10 @@ std::vector<std::string> listViews(const ImageFile& file);
 /// Throws InputError when the file has views, but not this one. Cost: the channel names.
 ImageFile takeView(ImageFile file, const std::string& view);
 
-/// openImage and takeView: how every frame is opened.
-ImageFile openFrame(const std::filesystem::path& path, const std::string& view = "");
+/// A frame's file, joined with the `others` that belong to it, and of them one view: how every
+/// frame is opened. Errors as openAnyImage, joinImages and takeView.
+ImageFile openFrame(const std::filesystem::path& path, const std::string& view = "",
+                    const std::vector<GroupFile>& others = {});
 
 namespace detail {
 

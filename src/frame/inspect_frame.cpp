@@ -11,6 +11,7 @@
 #include "frame/frame_view.h"
 #include "frame/lossy_passes.h"
 #include "frame/sidecar.h"
+#include "picture/frame_picture.h"
 
 namespace kagefude {
 namespace {
@@ -191,7 +192,7 @@ std::optional<Sidecar> trySidecar(Inspection& inspection) {
 }  // namespace
 
 Inspection inspectFrame(const std::filesystem::path& path, const AovNames& names) {
-  const ImageFile whole = openImage(path);
+  const ImageFile whole = openAnyImage(path);
   const ImageFile file = takeView(whole, names.view);
   Inspection inspection;
   inspection.path = path;

@@ -15,6 +15,7 @@
 #include "compositor/read_frame.h"
 #include "compositor/write_frame.h"
 #include "exr/header_claims.h"
+#include "frame/frame_group.h"
 #include "picture/png_file.h"
 #include "sequence/frame_thumbnail.h"
 
@@ -66,6 +67,9 @@ FileSet filesToRead(const Look& look, const Colour& colour, const std::vector<Fr
     for (const auto& input : job.inputs) {
       files.add(input);
       files.add(sidecarPath(input));
+      const std::string& view = job.view.empty() ? look.frame.view : job.view;
+      for (const GroupFile& other : groupFiles(input, look.frame.files, job.frame, view))
+        files.add(other.path);
     }
   return files;
 }
