@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -24,7 +25,11 @@ struct View {
       : data(other.data), width(other.width), height(other.height) {}
 
   T* row(int y) const { return data + static_cast<ptrdiff_t>(y) * width; }
-  T& operator()(int x, int y) const { return row(y)[x]; }
+  /// Builds without NDEBUG stop at a pixel that is not there.
+  T& operator()(int x, int y) const {
+    assert(contains(x, y));
+    return row(y)[x];
+  }
   bool empty() const { return data == nullptr || width <= 0 || height <= 0; }
   size_t pixels() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
