@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Fuzzes every harness from the seeds in corpus/.   tests/fuzz/run.sh [SECONDS [HARNESS...]]
-# Two at a time, SECONDS (60) each. An input that crashes stays in build/fuzz; when its bug is mended
-# it goes into tests/fuzz/corpus/HARNESS, where the unit tests replay it for ever.
+# Two at a time, SECONDS (60) each; KAGEFUDE_FUZZ_SEED makes a run go the way of the last one with it.
+# An input that crashes stays in build/fuzz; when its bug is mended it goes into
+# tests/fuzz/corpus/HARNESS, where the unit tests replay it for ever.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 seconds=${1:-60}
@@ -19,7 +20,8 @@ fuzz() {
   mkdir -p "$found/$harness"
   "$program" "$harness" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 \
     -malloc_limit_mb=600 -max_len=8192 -print_final_stats=1 "${options[@]}" \
-    -artifact_prefix="$found/$harness-" "$found/$harness" "tests/fuzz/corpus/$harness" \
+    -seed="${KAGEFUDE_FUZZ_SEED:-0}" -artifact_prefix="$found/$harness-" \
+    "$found/$harness" "tests/fuzz/corpus/$harness" \
     >"$found/$harness.log" 2>&1
 }
 
