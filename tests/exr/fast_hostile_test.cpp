@@ -102,7 +102,8 @@ std::vector<std::string> filesBelow(const std::vector<std::filesystem::path>& fo
   return files;
 }
 
-/// Our own EXRs, which are always there; other people's are added where they are.
+/// Our own EXRs, which are always there; other people's are added where they are. What fuzzing found
+/// among them is called damaged.
 std::filesystem::path ownFiles() { return kagefude::testing::sourceFolder() / "tests/fuzz/corpus"; }
 
 TEST_F(ExrFastHostile, TheCollectionOfDamagedFiles) {
@@ -144,6 +145,7 @@ TEST_F(ExrFastHostile, SoundFilesOfTheCollectionEqualOiio) {
   int compared = 0;
   for (const std::string& path : filesBelow({ownFiles() / "exr_chunks", ownFiles() / "exr_header",
                                              samples / "windows", samples / "cryptomatte"})) {
+    if (std::filesystem::path(path).filename().string().starts_with("damaged")) continue;
     const auto opened = FastExr::open(path);
     if (!opened) continue;
     SCOPED_TRACE(path);
