@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "image/clones.h"
 #include "passes/brush/grain_block.h"
@@ -37,14 +38,15 @@ void placeColours(int rows, int lastLevel, const BrushBlock& block, const float*
 }
 
 /// Two neighbouring colours, from wherever the left one lies.
-using RgbaPair = float __attribute__((vector_size(32), aligned(16), may_alias));
+using RgbaPair = float __attribute__((vector_size(32)));
 
 // The two rows are mixed for both columns at once.
 __attribute__((always_inline)) inline Rgba colourAt(const Rgba* colours, const ColourPlaces& places,
                                                     int i) {
   const Rgba* const left = colours + places.texel[i];
-  const RgbaPair upper = *reinterpret_cast<const RgbaPair*>(left);
-  const RgbaPair lower = *reinterpret_cast<const RgbaPair*>(left + places.down[i]);
+  RgbaPair upper, lower;
+  std::memcpy(&upper, left, sizeof upper);
+  std::memcpy(&lower, left + places.down[i], sizeof lower);
   const RgbaPair mixed = upper + (lower - upper) * places.fy[i];
   const Rgba a = __builtin_shufflevector(mixed, mixed, 0, 1, 2, 3);
   const Rgba b = __builtin_shufflevector(mixed, mixed, 4, 5, 6, 7);
