@@ -22,7 +22,7 @@ void copyPlaces(const View<const float>& plane, int first, int end, int y, Place
   if (y < 0 || y >= plane.height)
     std::fill_n(places.at, end - first + 2, 0.0f);
   else
-    std::copy_n(plane.row(y) + begin, stop - begin, places.at + begin - (first - 1));
+    std::copy_n(plane.row(y) + begin, stop - begin, places.at + (begin - (first - 1)));
 }
 
 // 1 where the neighbour behind is taken, -1 where the one before is, 0 for neither; see `changes`.
