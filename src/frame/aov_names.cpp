@@ -1,7 +1,6 @@
 #include "frame/aov_names.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <span>
 
@@ -109,13 +108,6 @@ Names namesOf(AovKind kind) {
   }
   return {};
 }
-
-constexpr std::array<AovKind, 14> searchedKinds = {
-    AovKind::position,     AovKind::normal,         AovKind::depth,
-    AovKind::objectIndex,  AovKind::materialIndex,  AovKind::vector,
-    AovKind::albedo,       AovKind::beauty,         AovKind::shadow,
-    AovKind::cryptoObject, AovKind::cryptoMaterial, AovKind::rest,
-    AovKind::uv,           AovKind::instanceRandom};
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 

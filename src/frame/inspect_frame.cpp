@@ -16,13 +16,6 @@
 namespace kagefude {
 namespace {
 
-constexpr std::array<AovKind, 14> shownKinds = {
-    AovKind::position,     AovKind::normal,         AovKind::depth,
-    AovKind::objectIndex,  AovKind::materialIndex,  AovKind::vector,
-    AovKind::albedo,       AovKind::beauty,         AovKind::shadow,
-    AovKind::cryptoObject, AovKind::cryptoMaterial, AovKind::rest,
-    AovKind::uv,           AovKind::instanceRandom};
-
 void add(Inspection& inspection, FindingKind kind, std::string what, std::string remedy) {
   inspection.findings.push_back({kind, std::move(what), std::move(remedy)});
 }
@@ -48,7 +41,7 @@ void addLayers(Inspection& inspection, const ImageFile& file) {
 }
 
 void addAovs(Inspection& inspection, const ImageFile& file, const AovNames& names) {
-  for (const AovKind kind : shownKinds) {
+  for (const AovKind kind : detail::searchedKinds) {
     InspectedAov aov{std::string(aovName(kind)), aovKey(kind), ""};
     try {
       if (const auto found = findAov(file, names, kind)) aov.pass = found->name;
