@@ -4,6 +4,8 @@
 #include <fstream>
 #include <string>
 
+#include "picture/cut_tiff.h"
+
 namespace kagefude {
 namespace {
 
@@ -55,6 +57,7 @@ bool cineonIsShort(const std::filesystem::path& path, uint64_t fileBytes) {
 
 bool isCutShort(const std::filesystem::path& path, const PictureHeader& header,
                 uint64_t fileBytes) {
+  if (header.format == "tiff") return tiffIsCutShort(path, fileBytes);
   if (header.format == "jpeg") return jpegHasNoEnd(path, fileBytes);
   if (header.format == "iff") return iffIsShort(path, fileBytes);
   if (header.format == "dds") return ddsIsShort(header, fileBytes);

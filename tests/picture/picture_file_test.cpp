@@ -4,6 +4,7 @@
 #include <random>
 
 #include "frame/frame_fixtures.h"
+#include "picture/cut_tiff.h"
 #include "picture/strip_file.h"
 #include "picture/write_picture.h"
 
@@ -159,6 +160,37 @@ TEST(PictureFile, AFileThatIsCutInHalfIsNoPicture) {
     const std::string whole = contentOf(path);
     writeText(path, whole.substr(0, whole.size() / 2));
     EXPECT_THROW(readStrip(path), InputError) << kind.format;
+  }
+}
+
+// OpenImageIO unpacks what is there of ZIP strips and says nothing: half a picture came out as
+// whole.
+TEST(PictureFile, ATiffThatEndsWithinAnyOfItsStripsIsNoPicture) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.tif";
+  Floats noise(64, 64);
+  std::mt19937 random(7);
+  for (size_t i = 0; i < noise.view().pixels(); ++i)
+    noise.row(0)[i] = static_cast<float>(random() % 256) / 255.0f;
+  const View<const float> grain = noise;
+  writePicture(path, headerOf("tiff", SampleType::uint8, 3, 64, 64), {{grain, grain, grain}});
+  EXPECT_FALSE(tiffIsCutShort(path, std::filesystem::file_size(path)));
+  const std::string whole = contentOf(path);
+  for (const double share : {0.2, 0.4, 0.6, 0.8, 0.95}) {
+    writeText(path,
+              whole.substr(0, static_cast<size_t>(share * static_cast<double>(whole.size()))));
+    EXPECT_THROW(readStrip(path), InputError) << share;
+  }
+  writeText(path, whole.substr(0, whole.size() - 1));
+  EXPECT_THROW(readStrip(path), InputError) << "a byte less";
+}
+
+TEST(PictureFile, WhatIsNoTiffIsNotCut) {
+  const TemporaryFolder folder;
+  for (const std::string& text :
+       {std::string(), std::string("II"), std::string("text of no picture")}) {
+    writeText(folder / "a.tif", text);
+    EXPECT_FALSE(tiffIsCutShort(folder / "a.tif", text.size())) << text;
   }
 }
 
