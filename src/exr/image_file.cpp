@@ -5,6 +5,7 @@
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -63,6 +64,24 @@ std::vector<Imf::Header> readHeaders(const std::filesystem::path& path) {
   }
 }
 
+/// OpenEXR allocates some tiles before it reads one, and a tile may be larger than the picture.
+void checkTileClaim(const std::filesystem::path& path, const Imf::Header& header,
+                    const Window& window, int64_t bytesPerPixel) {
+  if (!header.hasTileDescription()) return;
+  constexpr uint64_t longestSide = uint64_t{1} << 17, harmless = uint64_t{64} << 20;
+  const Imf::TileDescription& tile = header.tileDescription();
+  const uint64_t pixelBytes = static_cast<uint64_t>(bytesPerPixel);
+  const bool absurd = tile.xSize > longestSide || tile.ySize > longestSide;
+  const uint64_t bytes = absurd ? 0 : uint64_t{tile.xSize} * tile.ySize * pixelBytes;
+  const uint64_t whole = static_cast<uint64_t>(window.pixels()) * pixelBytes;
+  if (absurd || bytes > std::max(harmless, whole)) {
+    throw InputError(
+        fmt::format("{} claims tiles of {} x {} pixels in a picture of {} x {}; at most the "
+                    "picture's size or 64 MiB are allowed",
+                    path.string(), tile.xSize, tile.ySize, window.width, window.height));
+  }
+}
+
 Part describePart(const std::filesystem::path& path, const Imf::Header& header,
                   uint64_t fileBytes) {
   if (header.hasType() && Imf::isDeepData(header.type())) {
@@ -88,6 +107,7 @@ Part describePart(const std::filesystem::path& path, const Imf::Header& header,
   part.file = path;
   const bool loss = part.compression.starts_with("dwa");
   checkClaim(path, part.dataWindow.width, part.dataWindow.height, bytesPerPixel, fileBytes, loss);
+  checkTileClaim(path, header, part.dataWindow, bytesPerPixel);
   return part;
 }
 

@@ -91,8 +91,8 @@ struct ImageFile {
 /// Reads the headers of all parts of an EXR file. Throws InputError, one sentence with the file's
 /// name, when it is missing, not an EXR file, damaged, deep, has subsampled channels, or claims
 /// more pixels than its bytes can hold (see checkClaim), in a part or in the window that joins
-/// them. Nothing that depends on the claimed size is allocated before that check. Cost: the header,
-/// plus 8 bytes a chunk.
+/// them, or tiles beyond the picture and 64 MiB. Nothing of a claimed size is allocated before.
+/// Cost: the header, plus 8 bytes a chunk.
 ImageFile openImage(const std::filesystem::path& path);
 
 /// Several files of one frame as one image whose parts are theirs, in that order. Of a file of one

@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
 
 #include "exr/read_channels.h"
 #include "frame/frame_fixtures.h"
@@ -107,6 +108,28 @@ TEST(ImageFile, TruncatedFilesAreInputErrors) {
     });
     expectContains(message, "cut.exr");
   }
+}
+
+TEST(ImageFile, TilesLargerThanThePictureAreReadUnlessTheyAreHuge) {
+  const TemporaryFolder folder;
+  const auto withTiles = [&](unsigned width, unsigned height) {
+    Imf::Header header(8, 8);
+    header.channels().insert("R", Imf::Channel(Imf::FLOAT));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    header.setTileDescription(Imf::TileDescription(width, height));
+    const std::vector<float> ones(64, 1.0f);
+    Imf::TiledOutputFile output((folder / "tiles.exr").c_str(), header);
+    Imf::FrameBuffer buffer;
+    buffer.insert("R", Imf::Slice::Make(Imf::FLOAT, ones.data(), header.dataWindow()));
+    output.setFrameBuffer(buffer);
+    output.writeTile(0, 0);
+  };
+  withTiles(512, 256);
+  const ImageFile file = openImage(folder / "tiles.exr");
+  EXPECT_EQ(readFloats(file, std::vector<std::string>{"R"})[0](7, 7), 1.0f);
+  withTiles(8192, 4096);
+  expectContains(messageOf<InputError>([&] { openImage(folder / "tiles.exr"); }),
+                 "tiles.exr claims tiles of 8192 x 4096 pixels in a picture of 8 x 8");
 }
 
 TEST(CheckClaim, AcceptsWhatDeflateCanPack) {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes every harness from the seeds in corpus/.   tests/fuzz/run.sh [SECONDS [HARNESS...]]
-# Two at a time, SECONDS (60) each; KAGEFUDE_FUZZ_SEED makes a run go the way of the last one with it.
+# Two at a time, SECONDS (60) each. With KAGEFUDE_FUZZ_SEED they go the same way on every machine: from
+# the seeds alone and for a number of inputs instead of a time.
 # An input that crashes stays in build/fuzz; when its bug is mended it goes into
 # tests/fuzz/corpus/HARNESS, where the unit tests replay it for ever.
 set -euo pipefail
@@ -17,10 +18,16 @@ mapfile -t harnesses < <([ $# -gt 0 ] && printf '%s\n' "$@" || "$program" list)
 fuzz() {
   local harness=$1 options=()
   [[ $harness == look || $harness == override ]] && options=(-dict="$found/look.dict")
+  if [ -n "${KAGEFUDE_FUZZ_SEED:-}" ]; then
+    options+=(-seed="$KAGEFUDE_FUZZ_SEED" -runs=20000)
+    rm -rf "${found:?}/$harness"
+  else
+    options+=(-max_total_time="$seconds")
+  fi
   mkdir -p "$found/$harness"
-  "$program" "$harness" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 \
+  "$program" "$harness" -timeout=20 -rss_limit_mb=2048 \
     -malloc_limit_mb=600 -max_len=8192 -print_final_stats=1 "${options[@]}" \
-    -seed="${KAGEFUDE_FUZZ_SEED:-0}" -artifact_prefix="$found/$harness-" \
+    -artifact_prefix="$found/$harness-" \
     "$found/$harness" "tests/fuzz/corpus/$harness" \
     >"$found/$harness.log" 2>&1
 }
