@@ -17,7 +17,7 @@
 namespace kagefude {
 
 /// A folder of its own for each test, removed afterwards.
-class ExrFastTest : public testing::Test {
+class ExrFastTest : public ::testing::Test {
  protected:
   ExrFastTest() {
     std::string name = (std::filesystem::temp_directory_path() / "kagefude_exr_XXXXXX").string();

@@ -62,7 +62,7 @@ TEST_F(ExrFastRead, SamePixelsAsOiioOverCodecsWindowsAndContents) {
   for (const Imf::Compression codec : codecs) {
     for (const Window& window : windows) {
       for (const TestPixels pixels : {TestPixels::smooth, TestPixels::flat, TestPixels::noise}) {
-        SCOPED_TRACE(testing::Message() << codec << " " << window.width << "x" << window.height
+        SCOPED_TRACE(::testing::Message() << codec << " " << window.width << "x" << window.height
                                         << " " << static_cast<int>(pixels));
         const TestPart part = makeTestPart("", window, codec, pixels, 11);
         writeWithOpenExr(file("a.exr"), {part});

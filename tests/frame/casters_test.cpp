@@ -11,11 +11,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Casters : public testing::Test {
+class Casters : public ::testing::Test {
  protected:
   void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("kagefude_casters_") + test->name());
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(::testing::TempDir()) / (std::string("kagefude_casters_") + test->name());
     fs::create_directories(folder_);
   }
   void TearDown() override { fs::remove_all(folder_); }

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "exr/write_image.h"
 #include "source_folder.h"
+#include "test_folder.h"
 
 namespace kagefude::testing {
 
@@ -59,18 +60,6 @@ inline void writeChannels(const std::filesystem::path& path, const std::vector<s
     image.channels.push_back(floatChannel(names[c], type, planes.back()));
   }
   writeExr(path, image);
-}
-
-/// Runs `action` and returns the message of the Expected error that it throws.
-template <class Expected, class Action>
-std::string messageOf(const Action& action) {
-  try {
-    action();
-  } catch (const Expected& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no error was thrown";
-  return {};
 }
 
 inline void expectContains(const std::string& text, const std::string& part) {

@@ -30,7 +30,7 @@ struct Diary {
   std::atomic<size_t> mostOpenMemory{0};
 };
 
-class Batch : public testing::Test {
+class Batch : public ::testing::Test {
  protected:
   Batch() {
     stages.read = [this](size_t index) {

@@ -8,7 +8,7 @@
 namespace kagefude {
 namespace {
 
-class FrameJobs : public testing::Test {
+class FrameJobs : public ::testing::Test {
  protected:
   void make(const std::string& name, const std::vector<int>& frames, const char* view = "") {
     for (const int frame : frames) folder.write(FramePattern(name).path(frame, view).string());

@@ -11,12 +11,12 @@
 namespace kagefude {
 namespace {
 
-struct Scene {
+struct OutlineScene {
   Labels ids;
   Vec3Plane normal, position;
   Floats depth;
 
-  Scene(int width, int height)
+  OutlineScene(int width, int height)
       : ids(width, height, 1u),
         normal(width, height),
         position(width, height),
@@ -40,7 +40,7 @@ float total(const Floats& plane) {
 }
 
 TEST(Outline, StraightEdgeHasTheAskedWidth) {
-  Scene scene(40, 40);
+  OutlineScene scene(40, 40);
   for (int y = 0; y < 40; ++y)
     for (int x = 20; x < 40; ++x) scene.ids(x, y) = 2;
   for (const float width : {0.5f, 1.0f, 2.0f, 5.0f}) {
@@ -51,7 +51,7 @@ TEST(Outline, StraightEdgeHasTheAskedWidth) {
 }
 
 TEST(Outline, LineLiesOnTheBorderBetweenThePixels) {
-  Scene scene(40, 40);
+  OutlineScene scene(40, 40);
   for (int y = 0; y < 40; ++y)
     for (int x = 20; x < 40; ++x) scene.ids(x, y) = 2;
   const OutlineResult result = scene.draw();
@@ -62,7 +62,7 @@ TEST(Outline, LineLiesOnTheBorderBetweenThePixels) {
 
 TEST(Outline, SlantingEdgeIsSmooth) {
   // A step every four pixels: the line's darkness along it may hardly waver.
-  Scene scene(120, 60);
+  OutlineScene scene(120, 60);
   for (int y = 0; y < 60; ++y)
     for (int x = 0; x < 120; ++x)
       scene.ids(x, y) = static_cast<float>(y) > 15 + 0.25f * static_cast<float>(x) ? 2 : 1;
@@ -80,7 +80,7 @@ TEST(Outline, SlantingEdgeIsSmooth) {
 }
 
 TEST(Outline, CreaseAndStepInsideAnObject) {
-  Scene crease(40, 40);
+  OutlineScene crease(40, 40);
   for (int y = 0; y < 40; ++y)
     for (int x = 20; x < 40; ++x) crease.normal.set(x, y, {0.9f, 0, 0.436f});
   EXPECT_GT(total(crease.draw().coverage), 40.0f);
@@ -88,7 +88,7 @@ TEST(Outline, CreaseAndStepInsideAnObject) {
   noCrease.creaseAngle = 180;
   EXPECT_EQ(total(crease.draw(noCrease).coverage), 0.0f);
 
-  Scene step(40, 40);
+  OutlineScene step(40, 40);
   for (int y = 0; y < 40; ++y)
     for (int x = 20; x < 40; ++x)
       step.position.set(x, y, {0.01f * static_cast<float>(x), 0.01f * static_cast<float>(y), 1});
@@ -99,7 +99,7 @@ TEST(Outline, CreaseAndStepInsideAnObject) {
 }
 
 TEST(Outline, SteepPlaneIsNoStep) {
-  Scene plane(40, 40);
+  OutlineScene plane(40, 40);
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) {
       plane.normal.set(x, y, {-0.995f, 0, 0.0995f});
@@ -109,7 +109,7 @@ TEST(Outline, SteepPlaneIsNoStep) {
 }
 
 TEST(Outline, NearestSurfaceOwnsTheLine) {
-  Scene scene(40, 40);
+  OutlineScene scene(40, 40);
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) {
       scene.ids(x, y) = x < 20 ? 7 : 3;
@@ -122,14 +122,14 @@ TEST(Outline, NearestSurfaceOwnsTheLine) {
 }
 
 TEST(Outline, NoEdgesOnAnEmptyOrUniformPicture) {
-  EXPECT_EQ(total(Scene(16, 16).draw().coverage), 0.0f);
-  Scene background(16, 16);
+  EXPECT_EQ(total(OutlineScene(16, 16).draw().coverage), 0.0f);
+  OutlineScene background(16, 16);
   background.ids.fill(0);
   EXPECT_EQ(total(background.draw().coverage), 0.0f);
 }
 
 TEST(Outline, ThreadsDoNotMatter) {
-  Scene scene(120, 90);
+  OutlineScene scene(120, 90);
   for (int y = 0; y < 90; ++y)
     for (int x = 0; x < 120; ++x)
       scene.ids(x, y) = static_cast<uint32_t>(

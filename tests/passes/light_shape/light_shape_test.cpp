@@ -23,7 +23,7 @@ const std::vector<V2f> disc9 = [] {
 
 /// A floor seen from above, one unit a pixel, under a light of radius 1 at a height of 100; a
 /// blocker whose shadow shifts by `shift` pixels against each unit of place.
-struct Floor {
+struct LampFloor {
   int width, height;
   Labels labels;
   Vec3Plane position, normal;
@@ -31,7 +31,7 @@ struct Floor {
   LightGeometry geometry;
 
   template <class Lit>
-  Floor(int w, int h, float shift, const Lit& lit)
+  LampFloor(int w, int h, float shift, const Lit& lit)
       : width(w), height(h), labels(w, h, 1u), position(w, h), normal(w, h) {
     geometry.position = V3f(static_cast<float>(w) / 2, static_cast<float>(h) / 2, 100);
     geometry.u = V3f(1, 0, 0);
@@ -62,7 +62,7 @@ double circleShare(double d) {
 }
 
 TEST(LightShape, StraightEdgeHasTheDiscsOwnPenumbra) {
-  const Floor floor(96, 64, 12, [](float x, float) { return x > 47.5f; });
+  const LampFloor floor(96, 64, 12, [](float x, float) { return x > 47.5f; });
   for (const bool follow : {false, true}) {
     LightShapeParams params;
     params.follow = follow;
@@ -73,7 +73,7 @@ TEST(LightShape, StraightEdgeHasTheDiscsOwnPenumbra) {
 }
 
 TEST(LightShape, StripThinnerThanTheMasksSpacingIsFollowed) {
-  const Floor floor(128, 96, 16, [](float x, float) { return std::fabs(x - 63.5f) > 2.0f; });
+  const LampFloor floor(128, 96, 16, [](float x, float) { return std::fabs(x - 63.5f) > 2.0f; });
   LightShapeParams without;
   without.follow = false;
   const LightShapeResult followed = floor.resolve(), plain = floor.resolve(without);
@@ -88,7 +88,7 @@ TEST(LightShape, StripThinnerThanTheMasksSpacingIsFollowed) {
 }
 
 TEST(LightShape, LightSizeZeroIsTheHardCentreMask) {
-  const Floor floor(64, 48, 9, [](float x, float y) { return std::hypot(x - 30, y - 25) > 11; });
+  const LampFloor floor(64, 48, 9, [](float x, float y) { return std::hypot(x - 30, y - 25) > 11; });
   for (const bool follow : {false, true}) {
     LightShapeParams params;
     params.lightSize = 0;
@@ -100,7 +100,7 @@ TEST(LightShape, LightSizeZeroIsTheHardCentreMask) {
 }
 
 TEST(LightShape, BackgroundIsLitAndSure) {
-  Floor floor(32, 32, 5, [](float x, float) { return x > 16; });
+  LampFloor floor(32, 32, 5, [](float x, float) { return x > 16; });
   floor.labels.fill(0);
   const LightShapeResult result = floor.resolve();
   EXPECT_EQ(result.visibility(16, 16), 1.0f);
@@ -108,7 +108,7 @@ TEST(LightShape, BackgroundIsLitAndSure) {
 }
 
 TEST(LightShape, SurfaceOfOnePixelIsAShareOfItsMasksWithoutConfidence) {
-  Floor floor(32, 32, 5, [](float x, float) { return x > 15.5f; });
+  LampFloor floor(32, 32, 5, [](float x, float) { return x > 15.5f; });
   floor.labels(16, 16) = 2;
   const LightShapeResult result = floor.resolve();
   EXPECT_GT(result.visibility(16, 16), 0.2f);
@@ -118,7 +118,7 @@ TEST(LightShape, SurfaceOfOnePixelIsAShareOfItsMasksWithoutConfidence) {
 
 TEST(LightShape, ReceiverWithoutLitPixelStaysBetweenItsMasks) {
   // The label's pixels are hidden in every mask but one.
-  Floor floor(24, 24, 0, [](float, float) { return false; });
+  LampFloor floor(24, 24, 0, [](float, float) { return false; });
   floor.masks[3].fill(1);
   const LightShapeResult result = floor.resolve();
   EXPECT_GT(result.visibility(12, 12), 0.0f);
@@ -127,7 +127,7 @@ TEST(LightShape, ReceiverWithoutLitPixelStaysBetweenItsMasks) {
 }
 
 TEST(LightShape, ConfidenceFallsWhereTheFramesEdgeIsNearerThanTheShadows) {
-  const Floor floor(64, 64, 14, [](float x, float) { return x > 31.5f; });
+  const LampFloor floor(64, 64, 14, [](float x, float) { return x > 31.5f; });
   const LightShapeResult result = floor.resolve();
   EXPECT_LT(result.confidence(26, 0), result.confidence(26, 32));
   EXPECT_EQ(result.confidence(26, 32), 1.0f);
@@ -135,8 +135,8 @@ TEST(LightShape, ConfidenceFallsWhereTheFramesEdgeIsNearerThanTheShadows) {
 
 TEST(LightShape, OccluderInFrontDoesNotCutTheShadow) {
   const auto lit = [](float x, float) { return x > 47.5f; };
-  const Floor whole(96, 64, 12, lit);
-  Floor cut(96, 64, 12, lit);
+  const LampFloor whole(96, 64, 12, lit);
+  LampFloor cut(96, 64, 12, lit);
   for (int y = 0; y < 64; ++y)
     for (int x = 50; x < 54; ++x) cut.labels(x, y) = 7;
   const LightShapeResult a = whole.resolve(), b = cut.resolve();
@@ -147,7 +147,7 @@ TEST(LightShape, OccluderInFrontDoesNotCutTheShadow) {
 }
 
 TEST(LightShape, GrowMovesTheEdge) {
-  const Floor floor(96, 64, 6, [](float x, float) { return x > 47.5f; });
+  const LampFloor floor(96, 64, 6, [](float x, float) { return x > 47.5f; });
   LightShapeParams grown;
   grown.grow = 10;
   const LightShapeResult result = floor.resolve(grown);
@@ -156,7 +156,7 @@ TEST(LightShape, GrowMovesTheEdge) {
 }
 
 TEST(LightShape, TooFewMasksSayWhatToExport) {
-  const Floor floor(16, 16, 2, [](float x, float) { return x > 8; });
+  const LampFloor floor(16, 16, 2, [](float x, float) { return x > 8; });
   const std::vector<View<const uint8_t>> masks(floor.masks.begin(), floor.masks.begin() + 3);
   try {
     lightShapeVisibility(masks, {disc9.data(), 3}, floor.labels, {}, {}, std::nullopt, {});
@@ -167,13 +167,13 @@ TEST(LightShape, TooFewMasksSayWhatToExport) {
 }
 
 TEST(LightShape, MasksOfOtherSizesAreRefused) {
-  Floor floor(16, 16, 2, [](float x, float) { return x > 8; });
+  LampFloor floor(16, 16, 2, [](float x, float) { return x > 8; });
   floor.masks[4] = Bytes(15, 16, uint8_t{1});
   EXPECT_THROW(floor.resolve(), InputError);
 }
 
 TEST(LightShape, SameBitsForAnyNumberOfThreads) {
-  const Floor floor(90, 70, 9, [](float x, float y) {
+  const LampFloor floor(90, 70, 9, [](float x, float y) {
     return std::hypot(x - 40, y - 30) > 9 && std::fabs(x + y - 90) > 1.5f;
   });
   const LightShapeResult many = floor.resolve();
@@ -185,7 +185,7 @@ TEST(LightShape, SameBitsForAnyNumberOfThreads) {
 
 TEST(LightShape, ReceiverWithoutUmbraPixelStaysBetweenItsMasks) {
   // The label's pixels are lit in every mask but two: nothing is dark in all of them.
-  Floor floor(24, 24, 0, [](float, float) { return true; });
+  LampFloor floor(24, 24, 0, [](float, float) { return true; });
   floor.masks[2].fill(0);
   floor.masks[6].fill(0);
   const LightShapeResult result = floor.resolve();
@@ -198,14 +198,14 @@ TEST(LightShape, FramesEdgeIsNoShadowsEdge) {
   // The same shadow with the frame cut off beside it: what is left does not change where the edge
   // is nearer than the frame's.
   const auto lit = [](float x, float) { return x > 47.5f; };
-  const Floor whole(96, 64, 8, lit), cut(60, 64, 8, lit);
+  const LampFloor whole(96, 64, 8, lit), cut(60, 64, 8, lit);
   const LightShapeResult a = whole.resolve(), b = cut.resolve();
   for (int x = 36; x < 60; ++x) EXPECT_NEAR(a.visibility(x, 32), b.visibility(x, 32), 0.02) << x;
 }
 
 TEST(LightShape, SoftenWidensTheLight) {
   // Softened by one radius, the penumbra of a straight edge is that of a light twice as large.
-  const Floor floor(128, 64, 8, [](float x, float) { return x > 63.5f; });
+  const LampFloor floor(128, 64, 8, [](float x, float) { return x > 63.5f; });
   LightShapeParams soft;
   soft.soften = 1;
   const LightShapeResult result = floor.resolve(soft);
@@ -225,7 +225,7 @@ TEST(LightShape, AbstractSmoothsContoursAndKeepsStraightOnes) {
   LightShapeParams abstract, plain;
   abstract.abstract = 6;
   plain.follow = false;
-  const Floor toothed(96, 64, 3, saw);
+  const LampFloor toothed(96, 64, 3, saw);
   const LightShapeResult a = toothed.resolve(abstract), p = toothed.resolve(plain);
   double low = 1e9, high = 0, plainLow = 1e9, plainHigh = 0;
   for (int y = 24; y < 40; ++y) {
@@ -234,12 +234,12 @@ TEST(LightShape, AbstractSmoothsContoursAndKeepsStraightOnes) {
   }
   EXPECT_GT(plainHigh - plainLow, 4.0) << "teeth";
   EXPECT_LT(high - low, 0.5 * (plainHigh - plainLow));
-  const Floor straight(96, 64, 6, [](float x, float) { return x > 47.5f; });
+  const LampFloor straight(96, 64, 6, [](float x, float) { return x > 47.5f; });
   EXPECT_NEAR(edgeAt(straight.resolve(abstract), 32), edgeAt(straight.resolve(plain), 32), 0.2);
 }
 
 TEST(LightShape, GrowAndShrinkMoveTheEdgeByPixels) {
-  const Floor floor(96, 64, 6, [](float x, float) { return x > 47.5f; });
+  const LampFloor floor(96, 64, 6, [](float x, float) { return x > 47.5f; });
   for (const float grow : {-9.0f, 4.0f}) {
     LightShapeParams params;
     params.grow = grow;
