@@ -20,7 +20,7 @@ namespace {
 /// The part of a plane of `data`'s pixels that `display` shows, 0 where it has none.
 Floats shown(const Floats& plane, const Window& data, const Window& display) {
   if (data == display) return plane.clone();
-  Floats result(display.width, display.height);
+  Floats result(display.width, display.height, 0.0f);
   const int left = std::max(data.x, display.x);
   const int right = std::min(data.x + data.width, display.x + display.width);
   parallelRows(display.height, [&](int first, int end) {
@@ -151,9 +151,8 @@ std::string pictureFingerprint(const std::filesystem::path& path, const PictureF
   if (format.name == "png") return readPngText(path, kFingerprintAttribute).value_or("");
   PictureFile file(path);
   const PictureHeader& header = file.header();
-  // What was cut off these shows when their pixels are decoded, off the others when they are
-  // opened.
-  if (format.name == "dpx" || format.name == "webp") {
+  // Others that were cut are refused when they are opened.
+  if (format.name == "webp") {
     Floats red(header.dataWindow.width, header.dataWindow.height);
     const PicturePlane plane{0, red, {}, {}};
     file.read({&plane, 1});

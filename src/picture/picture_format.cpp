@@ -64,6 +64,10 @@ const PictureFormat& formatOf(const std::filesystem::path& file, std::string_vie
                                listSuffixes()));
 }
 
+FormatAlpha alphaFor(const PictureFormat& format, SampleDepth depth) {
+  return format.name == "dpx" && depth == uint10 ? FormatAlpha::none : format.alpha;
+}
+
 SampleDepth depthFor(const PictureFormat& format, SampleDepth asked) {
   if (asked == automatic) return format.depths.front();
   std::vector<std::string> held;

@@ -47,6 +47,10 @@ std::string listSuffixes();
 /// after. Throws UsageError that lists the suffixes.
 const PictureFormat& formatOf(const std::filesystem::path& file, std::string_view option);
 
+/// What becomes of alpha at a depth. OpenImageIO 2.4 loses the end of rows of DPX's three samples
+/// of 10 bits a word when pixels have four; other programs expect none there either.
+FormatAlpha alphaFor(const PictureFormat& format, SampleDepth depth);
+
 /// The depth to write, `asked` or the format's usual one. Throws LookError when it holds no such.
 SampleDepth depthFor(const PictureFormat& format, SampleDepth asked);
 

@@ -119,7 +119,8 @@ void refuseOutputsThatAreRead(const Look& look, const Colour& colour,
 /// The frame as the look wants its samples; the preview in 8 bits and without alpha.
 std::vector<PictureOutput> kindsOf(const Look& look, const std::vector<FramePattern>& outputs) {
   const PictureFormat& frame = formatOf(outputs.front().text(), "--output");
-  std::vector<PictureOutput> kinds = {{&frame, depthFor(frame, look.output.colour), frame.alpha}};
+  const SampleDepth depth = depthFor(frame, look.output.colour);
+  std::vector<PictureOutput> kinds = {{&frame, depth, alphaFor(frame, depth)}};
   for (size_t i = 1; i < outputs.size(); ++i)
     kinds.push_back(
         {&formatOf(outputs[i].text(), "--preview"), SampleDepth::uint8, FormatAlpha::none});
@@ -263,14 +264,15 @@ CompBatch::Composed CompBatch::compose(size_t index, Read input) {
 }
 
 void CompBatch::warnOfAlpha(const FrameResult& result, std::vector<std::string>& warnings) const {
-  if (kinds_.front().format->alpha != FormatAlpha::none) return;
+  const PictureOutput& frame = kinds_.front();
+  if (frame.alpha != FormatAlpha::none) return;
   const View<const float> alpha = result.alpha;
   if (std::all_of(alpha.row(0), alpha.row(0) + alpha.pixels(), [](float a) { return a >= 1.0f; }))
     return;
-  warnings.push_back(
-      fmt::format("{} files hold no alpha, and parts of the frame are transparent; "
-                  "it stands on black",
-                  kinds_.front().format->suffixes.front()));
+  warnings.push_back(fmt::format(
+      "{} files of {} samples hold no alpha, and parts of the frame are transparent; it stands on "
+      "black",
+      frame.format->suffixes.front(), sampleDepthName(frame.depth)));
 }
 
 void CompBatch::write(size_t index, Composed output) const {
