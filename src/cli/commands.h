@@ -41,6 +41,8 @@ void addStripCommand(CLI::App& app, Console& console, int& exit);
 void addCompareCommand(CLI::App& app, Console& console, int& exit);
 void addBenchCommand(CLI::App& app, Console& console, int& exit);
 void addCheckCommand(CLI::App& app, Console& console, int& exit);
+/// Comes last, for it describes the others.
+void addDocumentCommand(CLI::App& app, Console& console, int& exit);
 
 /// Parses the command line and runs one command. Every error ends here as one line on `err` that
 /// begins with "ERROR:".

@@ -13,7 +13,6 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/output_name.h"
 #include "cli/commands.h"
 #include "sequence/comp_batch.h"
 #include "sequence/frame_range.h"
@@ -29,7 +28,7 @@ namespace {
 struct CompOptions {
   std::string commandLine, look, input, output, frames, preview, chunk, maxMemory, report;
   std::vector<std::string> overrides, views;
-  std::string existing = "overwrite", progress = "auto";
+  std::string existing = "overwrite", progress = "auto", previewFormat = "png";
   int threads = 0;
   size_t framesAtOnce = 0;
   bool skipBadFrames = false;
@@ -40,14 +39,18 @@ ExistingOutputs existingFrom(const std::string& name) {
   return name == "update" ? ExistingOutputs::update : ExistingOutputs::overwrite;
 }
 
-/// PNGs go under the EXR's own name, so that one pattern serves both.
+/// Previews go under the frame's own name, so that one pattern serves both.
 std::string previewPattern(const CompOptions& options) {
   const std::filesystem::path name = std::filesystem::path(options.output).filename();
-  return (std::filesystem::path(options.preview) / name).replace_extension(".png").string();
+  std::string suffix = options.previewFormat;
+  if (!suffix.starts_with('.')) suffix.insert(0, ".");
+  if (formatOf("preview" + suffix, "--preview-format").isExr())
+    throw UsageError("--preview-format exr: previews are display-ready, and EXRs are scene-linear");
+  return (std::filesystem::path(options.preview) / name).replace_extension(suffix).string();
 }
 
 CompRequest requestFrom(const CompOptions& options, std::stop_token stop) {
-  requireSuffix(options.output, ".exr", "--output");
+  formatOf(options.output, "--output");
   CompRequest request;
   request.plan.inputs = {FramePattern(options.input)};
   request.plan.outputs = {FramePattern(options.output)};
@@ -238,13 +241,18 @@ void addCompCommand(CLI::App& app, const std::string& commandLine, Console& cons
   command->add_option("look", options->look, "look file (TOML)")->required();
   command->add_option("input", options->input, "frames (EXR), such as in/shot.####.exr")
       ->required();
-  command->add_option("-o,--output", options->output, "frames to write (EXR)")->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "frames to write; the suffix says the format: " + listSuffixes())
+      ->required();
   command->add_option("--frames", options->frames,
                       "such as 1-24, 1-24x2, 1,5,9; without it all that are on disk");
   command->add_option("--views", options->views, "views that %V stands for (left,right)")
       ->delimiter(',');
   command->add_option("--set", options->overrides, "section.key=value, over the look's own");
-  command->add_option("--preview", options->preview, "folder for display-ready PNGs");
+  command->add_option("--preview", options->preview, "folder for display-ready pictures");
+  command->add_option("--preview-format", options->previewFormat,
+                      "suffix of what goes there (png): " + listSuffixes());
   command->add_option("--report", options->report,
                       "folder for a page (index.html) about the run; a chunk makes "
                       "chunk-i-of-n in it");

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "base/nearest_name.h"
 #include "base/printed_json.h"
 #include "cli/commands.h"
+#include "cli/parameter_text.h"
 #include "look/look_sections.h"
 #include "look/read_section.h"
 #include "passes/strip/strip_paint.h"
@@ -18,34 +18,6 @@ namespace kagefude {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* typeName(ValueType type) {
-  switch (type) {
-    case ValueType::boolean:
-      return "true/false";
-    case ValueType::integer:
-      return "integer";
-    case ValueType::number:
-      return "number";
-    case ValueType::choice:
-      return "choice";
-    case ValueType::text:
-      return "text";
-    case ValueType::numbers:
-      return "numbers";
-    case ValueType::texts:
-      return "texts";
-  }
-  return "";
-}
-
-bool hasRange(const Parameter& p) { return p.minimum < p.maximum; }
-
-std::string rangeText(const Parameter& p) {
-  if (p.type == ValueType::choice) return fmt::format("{}", fmt::join(p.choices, " | "));
-  if (!hasRange(p)) return "";
-  return fmt::format("{} to {}{}{}", p.minimum, p.maximum, p.unit.empty() ? "" : " ", p.unit);
-}
 
 void printTable(std::ostream& out, const ParameterTable& table) {
   out << fmt::format("[{}]  {}  ({})\n", table.pass, table.summary, table.source);

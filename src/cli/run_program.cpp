@@ -69,6 +69,7 @@ int run(int argc, const char* const* argv, Console& console) {
   addCompareCommand(app, console, exit);
   addBenchCommand(app, console, exit);
   addCheckCommand(app, console, exit);
+  addDocumentCommand(app, console, exit);
   refuseEmptyValues(app);
   try {
     app.parse(argc, argv);

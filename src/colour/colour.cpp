@@ -158,6 +158,13 @@ void Colour::toDisplay(View<float> red, View<float> green, View<float> blue,
   state_->apply(make, red, green, blue);
 }
 
+std::string Colour::displaySpace(std::string_view display, std::string_view view) const {
+  const auto [shownOn, seenAs] = shownThrough(display, view);
+  const std::string space =
+      state_->config->getDisplayViewColorSpaceName(shownOn.c_str(), seenAs.c_str());
+  return space == "<USE_DISPLAY_NAME>" ? shownOn : space;
+}
+
 const std::string& Colour::source() const { return state_->source; }
 
 std::filesystem::path Colour::file() const {

@@ -38,6 +38,9 @@ class Colour {
   void toDisplay(View<float> red, View<float> green, View<float> blue,
                  std::string_view display = {}, std::string_view view = {}) const;
 
+  /// The space of what toDisplay gives, as the configuration names it.
+  std::string displaySpace(std::string_view display = {}, std::string_view view = {}) const;
+
   /// Where the configuration comes from: a path or "built-in".
   const std::string& source() const;
   /// The configuration's own file; empty for the built-in one.

@@ -14,7 +14,6 @@ namespace {
 // stage while the next begins, and packed chunks under way.
 constexpr size_t ofPasses = 40;
 constexpr size_t ofChange = 32;
-constexpr size_t ofPreview = 24;  // three float planes, samples and their packed bytes
 constexpr size_t ofResult = 16;
 constexpr size_t asHalf = 8;
 constexpr size_t ofIds = 4;
@@ -77,9 +76,20 @@ size_t casterBytes(const FramePlan& plan) {
   return bytes;
 }
 
+/// Of the pictures that are written, at most; they show the display window, whose claim is not
+/// that of a file.
+size_t pictureBytes(const FramePlan& plan, std::span<const PictureOutput> pictures) {
+  size_t perPixel = 0;
+  for (const PictureOutput& picture : pictures)
+    perPixel = std::max(perPixel, pictureMemory(picture));
+  constexpr int64_t mostPixels = int64_t{1} << 30;
+  return perPixel * static_cast<size_t>(std::min(plan.image.displayWindow.pixels(), mostPixels));
+}
+
 }  // namespace
 
-size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
+size_t frameMemory(const Look& look, const FramePlan& plan,
+                   std::span<const PictureOutput> pictures) {
   size_t masks = 0, methods = 0;
   for (const FrameLight& light : plan.lights) {
     masks += light.maskChannels.size();
@@ -105,12 +115,13 @@ size_t frameMemory(const Look& look, const FramePlan& plan, bool preview) {
   const size_t scaling = area > 1 ? ofIds + (ofResult + layers + ofIds) / area : 0;
   const size_t composing =
       floats + masks + ids + ofPasses + ofResult + layers + edges + tones + methods + scaling;
-  const size_t written = (ofResult + asHalf + layers + (preview ? ofPreview : 0)) / area;
+  const size_t written = (ofResult + asHalf + layers) / area;
   const size_t writing = written + passed + (area > 1 ? passed / area + ofRanks : 0);
   const size_t pixels =
       static_cast<size_t>(plan.image.width) * static_cast<size_t>(plan.image.height);
-  return (std::max({reading, composing, writing}) + ofChange) * pixels + depthMapBytes(plan) +
-         casterBytes(plan) + chunkBytes(plan, std::max(input, asHalf + layers + passed));
+  return (std::max({reading, composing, writing}) + ofChange) * pixels +
+         pictureBytes(plan, pictures) / area + depthMapBytes(plan) + casterBytes(plan) +
+         chunkBytes(plan, std::max(input, asHalf + layers + passed));
 }
 
 }  // namespace kagefude

@@ -192,19 +192,27 @@ const SidecarObject* FramePlan::findObject(uint32_t id) const {
   return name.empty() ? nullptr : sidecar->findObject(name);
 }
 
-FramePlan planFrame(const Look& asked, const std::filesystem::path& path, int frame,
+FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame,
                     const std::string& view) {
+  const std::string& taken = view.empty() ? look.frame.view : view;
+  ImageFile image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken));
+  const bool viewless = view.empty() && !look.frame.view.empty() && image.views.empty();
+  FramePlan plan = planOpenFrame(look, std::move(image), findSidecar(path), frame);
+  if (viewless)
+    plan.warnings.insert(plan.warnings.begin(),
+                         fmt::format("the file names no views; all of it is taken for the {} "
+                                     "view that frame.view asks for",
+                                     look.frame.view));
+  return plan;
+}
+
+FramePlan planOpenFrame(const Look& asked, ImageFile image, std::optional<Sidecar> sidecar,
+                        int frame) {
   const Look look = inRenderedPixels(asked);
   FramePlan plan;
   plan.frame = frame;
-  const std::string& taken = view.empty() ? look.frame.view : view;
-  plan.image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken));
-  if (view.empty() && !look.frame.view.empty() && plan.image.views.empty())
-    plan.warnings.push_back(
-        fmt::format("the file names no views; all of it is taken for the {} "
-                    "view that frame.view asks for",
-                    look.frame.view));
-  plan.sidecar = findSidecar(path);
+  plan.image = std::move(image);
+  plan.sidecar = std::move(sidecar);
   checkScale(look, plan);
   for (const LossyPass& lossy : lossyPasses(plan.image))
     plan.warnings.push_back(fmt::format("{}; {}", lossy.what, lossy.remedy));

@@ -37,7 +37,7 @@ void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& resu
   image.allParts = look.output.passthrough;
   image.attributes = attributes;
   const PixelType colour =
-      look.output.colour == PixelKind::half ? PixelType::half : PixelType::single;
+      look.output.colour == SampleDepth::single ? PixelType::single : PixelType::half;
   image.channels = {
       floatChannel("R", colour, result.colour.x), floatChannel("G", colour, result.colour.y),
       floatChannel("B", colour, result.colour.z), floatChannel("A", colour, result.alpha)};
@@ -52,14 +52,6 @@ void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& resu
     for (const RawPlane& plane : others) image.channels.push_back(rawChannel(plane));
   }
   writeExr(path, image);
-}
-
-void writePreview(const Look& look, const Colour& colour, const FrameResult& result,
-                  const std::filesystem::path& path,
-                  const std::map<std::string, std::string>& texts) {
-  Floats r = result.colour.x.clone(), g = result.colour.y.clone(), b = result.colour.z.clone();
-  colour.toDisplay(r, g, b, look.colour.display, look.colour.view);
-  writePng(path, r, g, b, {}, 8, texts);
 }
 
 }  // namespace kagefude

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <map>
 
-#include "colour/colour.h"
 #include "compositor/frame_plan.h"
 #include "compositor/frame_result.h"
 
@@ -14,11 +13,5 @@ namespace kagefude {
 void writeFrame(const Look& look, const FramePlan& plan, const FrameResult& result,
                 const std::filesystem::path& path,
                 const std::map<std::string, std::string>& attributes);
-
-/// Writes the display-ready preview of a frame as PNG, through the look's display and view, with
-/// `texts` in its header.
-void writePreview(const Look& look, const Colour& colour, const FrameResult& result,
-                  const std::filesystem::path& path,
-                  const std::map<std::string, std::string>& texts);
 
 }  // namespace kagefude

@@ -9,6 +9,7 @@
 #include "look/output_layers.h"
 #include "look/shadow_methods.h"
 #include "passes/tone/light.h"
+#include "picture/picture_format.h"
 
 // The look's sections that are not a pass's own parameters. Each is declared once, here.
 namespace kagefude {
@@ -73,8 +74,10 @@ inline constexpr Parameter colourParameters[] = {
     plain<&ColourParams::config>(
         "config", "OCIO config, relative to the look; empty: $OCIO, then the built-in one"),
     plain<&ColourParams::strip>("strip", "space that strips are painted in; empty: sRGB"),
-    plain<&ColourParams::display>("display", "display of previews; empty: the config's default"),
-    plain<&ColourParams::view>("view", "view of previews; empty: the display's default"),
+    plain<&ColourParams::display>(
+        "display", "display of previews and of integer outputs; empty: the config's default"),
+    plain<&ColourParams::view>(
+        "view", "view of previews and of integer outputs; empty: the display's default"),
 };
 inline constexpr ParameterTable colourTable{"colour", "names the colour spaces", "OpenColorIO",
                                             colourParameters};
@@ -83,8 +86,6 @@ enum class Background { beauty, transparent };
 inline constexpr std::string_view backgroundNames[] = {"beauty", "transparent"};
 enum class Edges { coverage, pixel };
 inline constexpr std::string_view edgeNames[] = {"coverage", "pixel"};
-enum class PixelKind { half, full };
-inline constexpr std::string_view pixelKindNames[] = {"half", "float"};
 inline constexpr std::string_view compressionNames[] = {"none", "rle", "zips", "zip", "piz"};
 
 /// [output]: what is written.
@@ -93,8 +94,9 @@ struct OutputParams {
   bool passthrough = false;
   Background background = Background::beauty;
   Edges edges = Edges::coverage;
-  PixelKind colour = PixelKind::half;
+  SampleDepth colour = SampleDepth::automatic;
   Compression compression = Compression::zip;
+  int quality = 95;
   int scale = 1;
 };
 inline constexpr Parameter outputParameters[] = {
@@ -106,9 +108,14 @@ inline constexpr Parameter outputParameters[] = {
     choice<&OutputParams::edges>("edges", edgeNames,
                                  "whether things meet by their Cryptomatte coverage, or pixel by "
                                  "pixel"),
-    choice<&OutputParams::colour>("colour", pixelKindNames,
-                                  "type of R,G,B,A; data layers are always float"),
+    choice<&OutputParams::colour>(
+        "colour", sampleDepthNames,
+        "samples of R,G,B,A, floats scene-linear and integers as the display shows them; auto: "
+        "half in EXR, uint16 in TIFF and PNG, uint10 in DPX, uint8 in JPEG and WebP; data layers "
+        "are always float"),
     choice<&OutputParams::compression>("compression", compressionNames, "lossless EXR compression"),
+    number<&OutputParams::quality>("quality", 1, 100, "",
+                                   "of JPEG and WebP; 100 makes WebP lossless"),
     number<&OutputParams::scale>(
         "scale", 1, 4, "",
         "how many times smaller than the frame the picture is written, filtered in linear light: "

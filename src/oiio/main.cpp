@@ -47,6 +47,16 @@ void allow(const json& request, rlim_t idle) {
   setrlimit(RLIMIT_CPU, &time);
 }
 
+WrittenPicture writtenPicture(const json& request) {
+  WrittenPicture picture{request.at("path"), request.at("name"), "", 0,
+                         headerFrom(request.at("header"))};
+  if (request.contains("metadata")) {
+    picture.metadataFile = request.at("metadata").at(0);
+    picture.metadataPart = request.at("metadata").at(1);
+  }
+  return picture;
+}
+
 /// Serves one request after the other.
 class Server {
  public:
@@ -66,8 +76,7 @@ class Server {
             {plane.at(0), static_cast<PlaneType>(plane.at(1).get<int>()), plane.at(2)});
       readPlanes(picture_, wanted, pixels.data());
     } else {
-      writePicture(request.at("path"), headerFrom(request.at("header")),
-                   reinterpret_cast<const float*>(pixels.data()));
+      writePicture(writtenPicture(request), reinterpret_cast<const float*>(pixels.data()));
     }
     return json::object();
   }
@@ -88,8 +97,9 @@ json answerOrError(Server& server, Message& message) {
 
 int serve() {
   MessageSocket socket{Descriptor(STDIN_FILENO)};
-  // Ours to end is the program at the other end of the socket, which the same signals reach.
-  for (const int ignored : {SIGINT, SIGTERM, SIGHUP}) std::signal(ignored, SIG_IGN);
+  // Ours to end is the program at the other end of the socket, which the same signals reach; a
+  // limit of file sizes is an error of a write.
+  for (const int ignored : {SIGINT, SIGTERM, SIGHUP, SIGXFSZ}) std::signal(ignored, SIG_IGN);
   const rlimit noCore{0, 0};
   setrlimit(RLIMIT_CORE, &noCore);
   mallopt(M_ARENA_MAX, 1);  // an arena a thread claims 64 MiB of address space each

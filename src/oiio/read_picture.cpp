@@ -5,6 +5,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "oiio/webp_file.h"
+
 namespace kagefude::oiio {
 namespace {
 
@@ -127,7 +129,10 @@ OpenedPicture openPicture(const std::string& path) {
   OpenedPicture picture;
   picture.input = OIIO::ImageInput::open(path, &config);
   if (!picture.input) fail(OIIO::geterror());
-  picture.header = describe(picture.input->spec(), picture.input->format_name());
+  OIIO::ImageSpec spec = picture.input->spec();
+  const std::string format = picture.input->format_name();
+  if (format == "webp") addWebpMetadata(path, spec);
+  picture.header = describe(spec, format);
   addInks(path, picture.header);
   picture.header.severalPictures = picture.input->seek_subimage(1, 0);
   (void)picture.input->geterror();

@@ -6,8 +6,18 @@
 
 namespace kagefude::oiio {
 
-/// Writes interleaved floats as a picture of `header`'s format, size, channels, sample type and
-/// attributes. Throws std::runtime_error with OpenImageIO's words.
-void writePicture(const std::string& path, const PictureHeader& header, const float* pixels);
+/// What is written, and where.
+struct WrittenPicture {
+  std::string path;          ///< of the temporary
+  std::string name;          ///< that the file will have; some headers hold it
+  std::string metadataFile;  ///< whose attributes go along; "" for none
+  int metadataPart = 0;
+  PictureHeader header;
+};
+
+/// Writes interleaved floats as a picture of the header's format, size, channels, sample type and
+/// attributes. The same bytes for the same values, whenever and wherever it is written. Throws
+/// std::runtime_error with OpenImageIO's words.
+void writePicture(const WrittenPicture& picture, const float* pixels);
 
 }  // namespace kagefude::oiio

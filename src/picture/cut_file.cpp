@@ -44,11 +44,13 @@ bool ddsIsShort(const PictureHeader& header, uint64_t fileBytes) {
   return fileBytes < 128 + (plain ? pixels * header.channels.size() : pixels / 2);
 }
 
-/// The file's size is in its header, in the byte order that the magic number has; all ones mean
-/// that it was not filled in.
-bool cineonIsShort(const std::filesystem::path& path, uint64_t fileBytes) {
-  std::string size = bytesAt(path, 20, 4);
-  if (bytesAt(path, 0, 1) == "\xD7") std::reverse(size.begin(), size.end());
+/// A film's picture: the file's size is in its header at `place`, in the byte order that the magic
+/// number has, which begins with `turned` where it is turned; all ones mean that it was not filled
+/// in.
+bool filmIsShort(const std::filesystem::path& path, uint64_t fileBytes, uint64_t place,
+                 const char* turned) {
+  std::string size = bytesAt(path, place, 4);
+  if (bytesAt(path, 0, 1) == turned) std::reverse(size.begin(), size.end());
   const uint64_t said = bigEndian(size);
   return said != 0xFFFFFFFF && said > fileBytes;
 }
@@ -61,7 +63,8 @@ bool isCutShort(const std::filesystem::path& path, const PictureHeader& header,
   if (header.format == "jpeg") return jpegHasNoEnd(path, fileBytes);
   if (header.format == "iff") return iffIsShort(path, fileBytes);
   if (header.format == "dds") return ddsIsShort(header, fileBytes);
-  return header.format == "cineon" && cineonIsShort(path, fileBytes);
+  if (header.format == "dpx") return filmIsShort(path, fileBytes, 16, "X");
+  return header.format == "cineon" && filmIsShort(path, fileBytes, 20, "\xD7");
 }
 
 }  // namespace kagefude

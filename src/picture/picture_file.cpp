@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/plain_file.h"
@@ -56,6 +57,14 @@ std::string reason(const nlohmann::json& answer, const std::filesystem::path& pa
   std::replace(words.begin(), words.end(), '\n', ' ');
   constexpr size_t longest = 300;
   return printable(words.substr(0, longest));
+}
+
+SharedPixels sharedPixels(const std::filesystem::path& path, size_t bytes) {
+  try {
+    return SharedPixels(bytes);
+  } catch (const std::system_error& limit) {
+    throw InputError(fmt::format("{} cannot be read: {}", path.string(), limit.what()));
+  }
 }
 
 }  // namespace
@@ -116,7 +125,7 @@ void PictureFile::read(std::span<const PicturePlane> planes) {
     offsets.push_back(bytes);
     bytes += pixels * (type == 0 ? 2 : 4);
   }
-  const SharedPixels shared(bytes);
+  const SharedPixels shared = sharedPixels(path_, bytes);
   // The pixels that are asked for, twice more as the decoder and OpenImageIO hold them, and the
   // file's own of all channels.
   const uint64_t all = pixels * header_.channels.size() * 4;

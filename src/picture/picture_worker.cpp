@@ -27,14 +27,16 @@ namespace fs = std::filesystem;
 
 constexpr const char* workerName = "kagefude-oiio";
 
-/// Beside this program, as in a build folder, or where an installation has it.
+/// Beside this program, as in a build folder, where the program's installation has it, or, for
+/// other programs that have the library in them, where it was installed first.
 std::string findWorker() {
   std::error_code failed;
   const fs::path self = fs::read_symlink("/proc/self/exe", failed);
   const fs::path beside = self.parent_path() / workerName;
   const fs::path installed =
       (self.parent_path() / KAGEFUDE_WORKER_FOLDER / workerName).lexically_normal();
-  for (const fs::path& place : {beside, installed})
+  for (const fs::path& place :
+       {beside, installed, fs::path(KAGEFUDE_WORKER_INSTALLED) / workerName})
     if (access(place.c_str(), X_OK) == 0) return place.string();
   throw InputError(
       fmt::format("{}, the part of kagefude that reads and writes pictures with OpenImageIO, is "
@@ -61,12 +63,23 @@ class FileActions {
   posix_spawn_file_actions_t actions;
 };
 
-std::string howItEnded(int status) {
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) return "it takes too long to decode";
+std::string howItEnded(int status, bool writing) {
+  const char* const coder = writing ? "encoder" : "decoder";
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
+    return fmt::format("its {} takes too long", coder);
+  if (WIFSIGNALED(status) && writing)
+    return fmt::format("its encoder was ended by signal {}", WTERMSIG(status));
   if (WIFSIGNALED(status))
     return fmt::format("it is damaged in a way that its decoder did not survive (signal {})",
                        WTERMSIG(status));
-  return fmt::format("its decoder gave up (exit {})", WEXITSTATUS(status));
+  return fmt::format("its {} gave up (exit {})", coder, WEXITSTATUS(status));
+}
+
+/// Of a worker that did not come to say hello.
+std::string whyNotStarted(int status) {
+  if (WIFSIGNALED(status)) return fmt::format("it was ended by signal {}", WTERMSIG(status));
+  return fmt::format("it ends at once (exit {}); are OpenImageIO's libraries installed?",
+                     WEXITSTATUS(status));
 }
 
 /// Idle workers, and how many there are in all.
@@ -88,10 +101,7 @@ PictureWorker::PictureWorker() {
   const std::string program = findWorker();
   start(program);
   const auto hello = socket_->receive();
-  if (!hello) {
-    end();
-    failToStart(program, "it ends at once; are OpenImageIO's libraries installed?");
-  }
+  if (!hello) failToStart(program, whyNotStarted(end()));
   const std::string version = hello->content->value("version", "");
   if (version != KAGEFUDE_VERSION) {
     end();
@@ -119,14 +129,14 @@ void PictureWorker::start(const std::string& program) {
   }
 }
 
-std::string PictureWorker::end() {
+int PictureWorker::end() {
   socket_.reset();
-  if (process_ <= 0) return "";
   int status = 0;
+  if (process_ <= 0) return status;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
   process_ = -1;
-  return howItEnded(status);
+  return status;
 }
 
 nlohmann::json PictureWorker::ask(nlohmann::json request, const WorkerBounds& bounds, int pixels) {
@@ -134,7 +144,7 @@ nlohmann::json PictureWorker::ask(nlohmann::json request, const WorkerBounds& bo
   request["seconds"] = bounds.seconds;
   if (socket_ && socket_->send(request, pixels))
     if (auto answer = socket_->receive()) return std::move(*answer->content);
-  return {{"error", end()}};
+  return {{"error", howItEnded(end(), request.at("do") == "write")}};
 }
 
 WorkerLease::WorkerLease() {

@@ -37,7 +37,7 @@ class PictureWorker {
 
  private:
   void start(const std::string& program);
-  std::string end();
+  int end();  ///< as waitpid() has it
 
   pid_t process_ = -1;
   std::unique_ptr<MessageSocket> socket_;

@@ -4,14 +4,23 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <new>
+#include <string>
+#include <system_error>
 
 namespace kagefude {
 
 SharedPixels::SharedPixels(size_t bytes)
     : descriptor_(memfd_create("kagefude", MFD_CLOEXEC)), bytes_(bytes) {
-  if (!descriptor_ || ftruncate(descriptor_.number(), static_cast<off_t>(bytes)) != 0)
-    throw std::bad_alloc();
+  if (!descriptor_) throw std::bad_alloc();
+  if (ftruncate(descriptor_.number(), static_cast<off_t>(bytes)) != 0) {
+    if (errno != EFBIG) throw std::bad_alloc();
+    throw std::system_error(errno, std::generic_category(),
+                            std::to_string(bytes) +
+                                " bytes of pixels are more than the limit on the size of files "
+                                "(ulimit -f) allows");
+  }
   map();
 }
 

@@ -9,7 +9,8 @@ namespace kagefude {
 /// Memory that two processes see: made by one, sent as a descriptor, mapped by both.
 class SharedPixels {
  public:
-  /// New memory of `bytes` zeros. Throws std::bad_alloc.
+  /// New memory of `bytes` zeros. Throws std::bad_alloc, and std::system_error where a limit on the
+  /// size of files (ulimit -f) forbids it, for the kernel counts it as one.
   explicit SharedPixels(size_t bytes);
   /// The memory that came with a message. Throws std::bad_alloc when it is not of `bytes`.
   SharedPixels(Descriptor received, size_t bytes);

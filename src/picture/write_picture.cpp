@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/printable.h"
@@ -45,10 +46,18 @@ WorkerLease workerFor(const std::filesystem::path& path) {
   }
 }
 
+SharedPixels sharedPixels(const std::filesystem::path& path, size_t bytes) {
+  try {
+    return SharedPixels(bytes);
+  } catch (const std::system_error& limit) {
+    refuse(path, limit.what());
+  }
+}
+
 }  // namespace
 
 void writePicture(const std::filesystem::path& path, const PictureHeader& header,
-                  std::span<const View<const float>> planes) {
+                  std::span<const View<const float>> planes, const MetadataSource* metadata) {
   if (planes.size() != header.channels.size() || planes.empty())
     refuse(path, "it has not one plane for each channel");
   for (const View<const float>& plane : planes)
@@ -56,18 +65,21 @@ void writePicture(const std::filesystem::path& path, const PictureHeader& header
       refuse(path, "its planes are of different sizes");
   const SampleType type = header.channels.front().type;
   const size_t bytes = planes.front().pixels() * planes.size() * sizeof(float);
-  const SharedPixels shared(bytes);
+  const SharedPixels shared = sharedPixels(path, bytes);
   interleave(planes, type != SampleType::half && type != SampleType::single,
              reinterpret_cast<float*>(shared.data()));
   TempFile file(path);
   WorkerLease worker = workerFor(path);
   constexpr uint64_t harmless = uint64_t{1} << 30;  // codecs of films keep several pictures
+  nlohmann::json request = {{"do", "write"},
+                            {"path", std::filesystem::absolute(file.path()).string()},
+                            {"name", path.filename().string()},
+                            {"header", toJson(header)},
+                            {"bytes", bytes}};
+  if (metadata)
+    request["metadata"] = {std::filesystem::absolute(metadata->file).string(), metadata->part};
   const nlohmann::json answer =
-      worker->ask({{"do", "write"},
-                   {"path", std::filesystem::absolute(file.path()).string()},
-                   {"header", toJson(header)},
-                   {"bytes", bytes}},
-                  {harmless + 6 * bytes, 600}, shared.descriptor());
+      worker->ask(std::move(request), {harmless + 6 * bytes, 600}, shared.descriptor());
   if (answer.contains("error")) {
     std::string words = answer.at("error");
     const std::string temporary = file.path().filename().string();

@@ -16,7 +16,6 @@
 #include "compositor/write_frame.h"
 #include "exr/header_claims.h"
 #include "frame/frame_group.h"
-#include "picture/png_file.h"
 #include "sequence/frame_thumbnail.h"
 
 namespace kagefude {
@@ -42,6 +41,12 @@ void removeLeftoversOf(const std::vector<FrameJob>& jobs) {
       if (std::find(folders.begin(), folders.end(), output.parent_path()) == folders.end())
         folders.push_back(output.parent_path());
   for (const auto& folder : folders) removeLeftovers(folder.empty() ? "." : folder);
+}
+
+/// The fingerprint that a whole output holds, "" when it holds none or is not whole.
+std::string storedFingerprint(const std::filesystem::path& path, const PictureFormat& format) {
+  if (!format.isExr()) return pictureFingerprint(path, format);
+  return isWholeExr(path) ? openImage(path).text(kFingerprintAttribute).value_or("") : "";
 }
 
 /// What is the same for all frames of a run. Of the colour configuration that is what its
@@ -111,6 +116,17 @@ void refuseOutputsThatAreRead(const Look& look, const Colour& colour,
                                    output.string(), file->string()));
 }
 
+/// The frame as the look wants its samples; the preview in 8 bits and without alpha.
+std::vector<PictureOutput> kindsOf(const Look& look, const std::vector<FramePattern>& outputs) {
+  const PictureFormat& frame = formatOf(outputs.front().text(), "--output");
+  const SampleDepth depth = depthFor(frame, look.output.colour);
+  std::vector<PictureOutput> kinds = {{&frame, depth, alphaFor(frame, depth)}};
+  for (size_t i = 1; i < outputs.size(); ++i)
+    kinds.push_back(
+        {&formatOf(outputs[i].text(), "--preview"), SampleDepth::uint8, FormatAlpha::none});
+  return kinds;
+}
+
 }  // namespace
 
 struct CompBatch::Planned {
@@ -134,10 +150,11 @@ CompBatch::CompBatch(const Look& look, CompRequest request)
     : look_(look),
       request_(std::move(request)),
       jobs_(planJobs(request_.plan, &notes_)),
+      kinds_(kindsOf(look, request_.plan.outputs)),
       colour_(look.colourConfig()),
       strips_(look, colour_),
       common_(commonFingerprint(look, colour_)),
-      view_(request_.plan.outputs.size() > 1 || request_.thumbnails
+      view_(kinds_.size() > 1 || isShown(0) || request_.thumbnails
                 ? colour_.toDisplayId(look.colour.display, look.colour.view)
                 : std::string()),
       planned_(jobs_.size()),
@@ -145,6 +162,11 @@ CompBatch::CompBatch(const Look& look, CompRequest request)
       thumbnails_(jobs_.size()),
       uses_(jobs_.size()) {
   refuseOutputsThatAreRead(look, colour_, jobs_);
+  const bool more = !look.output.layers.empty() || look.output.passthrough;
+  if (more && !kinds_.front().format->isExr())
+    notes_.push_back(
+        fmt::format("output.layers and output.passthrough go into EXRs; {} gets the picture alone",
+                    request_.plan.outputs.front().text()));
   if (jobs_.empty()) return;
   try {
     planned(0);
@@ -175,7 +197,8 @@ Fingerprint CompBatch::fingerprint(const FrameJob& job) const {
   return print;
 }
 
-std::string CompBatch::previewFingerprint(const std::string& frame) const {
+std::string CompBatch::outputFingerprint(size_t output, const std::string& frame) const {
+  if (!isShown(output)) return frame;
   return Fingerprint().add("frame", frame).add("view", view_).hex();
 }
 
@@ -199,10 +222,8 @@ bool CompBatch::isUpToDate(size_t index) {
   try {
     const Fingerprint& print = planned(index).print;
     const LooksAtOutputs looking;
-    if (!isWholeExr(job.outputs.front())) return false;
-    if (openImage(job.outputs.front()).text(kFingerprintAttribute) != print.hex()) return false;
-    for (size_t i = 1; i < job.outputs.size(); ++i)
-      if (readPngText(job.outputs[i], kFingerprintAttribute) != previewFingerprint(print.hex()))
+    for (size_t i = 0; i < job.outputs.size(); ++i)
+      if (storedFingerprint(job.outputs[i], *kinds_[i].format) != outputFingerprint(i, print.hex()))
         return false;
     return true;
   } catch (const InputError&) {
@@ -219,7 +240,7 @@ bool CompBatch::isDone(size_t index) {
   planned_[index].reset();
   const LooksAtOutputs looking;
   if (request_.thumbnails)
-    thumbnails_[index] = storedThumbnail(look_, colour_, job.outputs.front());
+    thumbnails_[index] = storedThumbnail(look_, colour_, job.outputs.front(), isShown(0));
   return true;
 }
 
@@ -236,22 +257,37 @@ CompBatch::Read CompBatch::read(size_t index) {
 CompBatch::Composed CompBatch::compose(size_t index, Read input) {
   FrameResult result = composeFrame(look_, strips_, input.plan, std::move(input.planes));
   warnings_[index] = result.warnings;
+  warnOfAlpha(result, warnings_[index]);
   uses_[index] = lookUse(look_, input.plan, result.fittingStyles);
   if (request_.thumbnails) thumbnails_[index] = frameThumbnail(look_, colour_, result.colour);
   return {std::move(input.plan), std::move(result), std::move(input.fingerprint)};
 }
 
+void CompBatch::warnOfAlpha(const FrameResult& result, std::vector<std::string>& warnings) const {
+  const PictureOutput& frame = kinds_.front();
+  if (frame.alpha != FormatAlpha::none) return;
+  const View<const float> alpha = result.alpha;
+  if (std::all_of(alpha.row(0), alpha.row(0) + alpha.pixels(), [](float a) { return a >= 1.0f; }))
+    return;
+  warnings.push_back(fmt::format(
+      "{} files of {} samples hold no alpha, and parts of the frame are transparent; it stands on "
+      "black",
+      frame.format->suffixes.front(), sampleDepthName(frame.depth)));
+}
+
 void CompBatch::write(size_t index, Composed output) const {
   const std::vector<std::filesystem::path>& paths = jobs_[index].outputs;
-  const std::map<std::string, std::string> attributes = {
-      {kFingerprintAttribute, output.fingerprint}};
-  for (size_t i = 1; i < paths.size(); ++i) {
+  // The frame last: where it is there, all of its outputs are.
+  for (size_t i = paths.size(); i-- > 0;) {
     makeFolders(paths[i].parent_path());
-    writePreview(look_, colour_, output.result, paths[i],
-                 {{kFingerprintAttribute, previewFingerprint(output.fingerprint)}});
+    const std::string fingerprint = outputFingerprint(i, output.fingerprint);
+    if (kinds_[i].format->isExr())
+      writeFrame(look_, output.plan, output.result, paths[i],
+                 {{kFingerprintAttribute, fingerprint}});
+    else
+      writeFramePicture(look_, colour_, output.plan, output.result, paths[i], kinds_[i],
+                        fingerprint);
   }
-  makeFolders(paths.front().parent_path());
-  writeFrame(look_, output.plan, output.result, paths.front(), attributes);
 }
 
 std::vector<std::string> CompBatch::unused() const {
@@ -268,7 +304,9 @@ BatchResult CompBatch::run(const std::function<void(const CompEvent&)>& onFrame)
   stages.compute = [this](size_t i, Read input) { return compose(i, std::move(input)); };
   stages.write = [this](size_t i, Composed output) { write(i, std::move(output)); };
   stages.memory = [this](size_t i) {
-    return frameMemory(look_, planned(i).plan, jobs_[i].outputs.size() > 1);
+    std::vector<PictureOutput> pictures = kinds_;
+    if (pictures.front().format->isExr()) pictures.erase(pictures.begin());
+    return frameMemory(look_, planned(i).plan, pictures);
   };
   stages.isDone = [this](size_t i) { return isDone(i); };
   BatchOptions options;

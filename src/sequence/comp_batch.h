@@ -10,6 +10,7 @@
 #include "compositor/frame_plan.h"
 #include "compositor/look_use.h"
 #include "compositor/strip_set.h"
+#include "compositor/write_frame_picture.h"
 #include "look/look.h"
 #include "sequence/batch.h"
 #include "sequence/fingerprint.h"
@@ -23,7 +24,8 @@ namespace kagefude {
 enum class ExistingOutputs { overwrite, skip, update };
 
 struct CompRequest {
-  PlanRequest plan;  ///< outputs[0] is the EXR, outputs[1], if any, the preview
+  PlanRequest
+      plan;  ///< outputs[0] is the frame, outputs[1], if any, the preview; by their suffixes
   ExistingOutputs existing = ExistingOutputs::overwrite;
   size_t maxMemory = 0;
   size_t maxFrames = 0;  ///< in flight; 0 is one a thread
@@ -44,7 +46,8 @@ struct CompEvent {
 /// touched, so that an error of the look shows with nothing written.
 class CompBatch {
  public:
-  /// Throws UsageError, LookError and InputError as planJobs, Look, Colour and StripSet do.
+  /// Throws UsageError, LookError and InputError as formatOf, depthFor, planJobs, Look, Colour and
+  /// StripSet do.
   CompBatch(const Look& look, CompRequest request);
   ~CompBatch();
 
@@ -74,18 +77,21 @@ class CompBatch {
   /// Of everything that decides a frame's pixels. Files are looked at before they are read, so that
   /// one which changes meanwhile makes the frame stale.
   Fingerprint fingerprint(const FrameJob& job) const;
-  /// Of a preview beside the frame, which a change of the view makes stale but not the frame.
-  std::string previewFingerprint(const std::string& frame) const;
+  /// Of an output of the frame, which a change of the view makes stale where it is seen through it.
+  std::string outputFingerprint(size_t output, const std::string& frame) const;
+  bool isShown(size_t output) const { return isDisplayReferred(kinds_[output].depth); }
+  void warnOfAlpha(const FrameResult& result, std::vector<std::string>& warnings) const;
 
   const Look& look_;
   CompRequest request_;
   std::vector<std::string> notes_;
   std::vector<FrameJob> jobs_;
+  std::vector<PictureOutput> kinds_;  ///< by output of a job
   Colour colour_;
   StripSet strips_;
   FileDigests digests_;
   Fingerprint common_;                              ///< program, look and its files
-  std::string view_;                                ///< what previews are shown through
+  std::string view_;                                ///< what integer outputs are shown through
   std::vector<std::unique_ptr<Planned>> planned_;   ///< by job, from its plan to its reading
   std::vector<std::vector<std::string>> warnings_;  ///< by job; written by its own stage only
   std::vector<Thumbnail> thumbnails_;               ///< likewise

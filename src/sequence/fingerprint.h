@@ -9,9 +9,6 @@
 
 namespace kagefude {
 
-/// The output header's attribute that holds the fingerprint of what made it.
-constexpr const char* kFingerprintAttribute = "kagefude/fingerprint";
-
 /// Names what a frame was made from, so that `--existing update` can tell a stale output from a
 /// right one: feed it the program's version, the look with every value resolved, and each input
 /// file; equal hexes mean equal inputs. Order counts, and each piece is hashed with its label and

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "exr/read_channels.h"
 #include "image/box_reduce.h"
+#include "picture/frame_picture.h"
 #include "picture/png_file.h"
 
 namespace kagefude {
@@ -30,9 +31,9 @@ uint8_t byteOf(float value) {
   return value < 1.0f ? static_cast<uint8_t>(value * 255.0f + 0.5f) : 255;
 }
 
-}  // namespace
-
-Thumbnail frameThumbnail(const Look& look, const Colour& colour, Vec3View picture) {
+/// `show` makes the reduced planes display-ready.
+template <class Show>
+Thumbnail thumbnailOf(Vec3View picture, const Show& show) {
   Thumbnail thumbnail;
   const int64_t width = picture.width(), height = picture.height();
   const int64_t longest = std::max({width, height, longestSide});
@@ -41,19 +42,29 @@ Thumbnail frameThumbnail(const Look& look, const Colour& colour, Vec3View pictur
   Floats r = reduced(picture.x, thumbnail.width, thumbnail.height);
   Floats g = reduced(picture.y, thumbnail.width, thumbnail.height);
   Floats b = reduced(picture.z, thumbnail.width, thumbnail.height);
-  colour.toDisplay(r, g, b, look.colour.display, look.colour.view);
+  show(r, g, b);
   for (int y = 0; y < thumbnail.height; ++y)
     for (int x = 0; x < thumbnail.width; ++x)
       for (const Floats* plane : {&r, &g, &b}) thumbnail.rgb.push_back(byteOf((*plane)(x, y)));
   return thumbnail;
 }
 
-Thumbnail storedThumbnail(const Look& look, const Colour& colour,
-                          const std::filesystem::path& path) {
+}  // namespace
+
+Thumbnail frameThumbnail(const Look& look, const Colour& colour, Vec3View picture) {
+  return thumbnailOf(picture, [&](Floats& r, Floats& g, Floats& b) {
+    colour.toDisplay(r, g, b, look.colour.display, look.colour.view);
+  });
+}
+
+Thumbnail storedThumbnail(const Look& look, const Colour& colour, const std::filesystem::path& path,
+                          bool shown) {
   try {
-    std::vector<Floats> planes =
-        readFloats(openImage(path), std::vector<std::string>{"R", "G", "B"});
-    return frameThumbnail(look, colour, {planes[0], planes[1], planes[2]});
+    const std::vector<Floats> planes =
+        readFloats(openAnyImage(path), std::vector<std::string>{"R", "G", "B"});
+    const Vec3View picture{planes[0], planes[1], planes[2]};
+    if (!shown) return frameThumbnail(look, colour, picture);
+    return thumbnailOf(picture, [](Floats&, Floats&, Floats&) {});
   } catch (const InputError&) {
     return {};
   }

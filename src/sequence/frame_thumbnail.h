@@ -13,9 +13,10 @@ namespace kagefude {
 /// of those it covers, in the working space), through the look's display and view.
 Thumbnail frameThumbnail(const Look& look, const Colour& colour, Vec3View picture);
 
-/// The same of a frame on disk, by its R, G, B; empty when it cannot be read.
-Thumbnail storedThumbnail(const Look& look, const Colour& colour,
-                          const std::filesystem::path& path);
+/// The same of a frame on disk, by its R, G, B, which are display-ready when it is `shown`; empty
+/// when it cannot be read.
+Thumbnail storedThumbnail(const Look& look, const Colour& colour, const std::filesystem::path& path,
+                          bool shown);
 
 /// Writes a thumbnail as PNG. OutputError as writePng.
 void writeThumbnail(const std::filesystem::path& path, const Thumbnail& thumbnail);

@@ -124,7 +124,8 @@ class OwnKeys : public ::testing::Test {
     const FramePlan plan = planFrame(look, path, 1);
     const FrameResult result = composeFrame(look, strips, plan, readFramePlanes(plan));
     writeFrame(look, plan, result, folder / "out.exr", {});
-    writePreview(look, colour, result, folder / "out.png", {});
+    const PictureOutput preview{&formatOf("out.png", "--preview")};
+    writeFramePicture(look, colour, plan, result, folder / "out.png", preview, "");
     return bytesOf(folder / "out.exr") + bytesOf(folder / "out.png");
   }
   static std::string bytesOf(const std::filesystem::path& path) {

@@ -67,8 +67,12 @@ ln one.exr picture.png
 expect 2 "would overwrite" compare one.exr one.exr --channel data.Depth --picture picture.png
 ln strips/one.png sheet.png
 expect 2 "would overwrite" sheet strip.toml one.exr -o sheet.png
-expect 2 "should end in .exr" comp look.toml one.exr -o look.toml
-expect 2 "should end in .exr" comp look.toml one.exr -o x.png
+expect 2 "no pictures are written as .toml" comp look.toml one.exr -o look.toml
+expect 2 "did you mean .png?" comp look.toml one.exr -o x.pngg
+expect 2 "no suffix" comp look.toml one.exr -o x
+expect 2 "hold uint8" comp look.toml one.exr -o x.jpg --set output.colour=half
+expect 2 "display-ready" comp look.toml one.exr -o x.exr --preview strips --preview-format exr
+expect 2 "no pictures are written as .gif" comp look.toml one.exr -o x.exr --preview strips --preview-format gif
 expect 2 "should end in .png" sheet look.toml one.exr -o x.exr
 expect 2 "should end in .png" strip make x.tif
 expect 2 "should end in .exr" bench --save x.png
