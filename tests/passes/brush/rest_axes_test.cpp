@@ -8,13 +8,13 @@ namespace kagefude {
 namespace {
 
 /// A turn about a slanted axis.
-struct Rigid {
+struct Turn {
   V3f x{0.8f, 0.0f, 0.6f}, y{0.36f, 0.8f, -0.48f}, z{-0.48f, 0.6f, 0.64f};
   V3f turned(const V3f& v) const { return x * v.x + y * v.y + z * v.z; }
 };
 
 TEST(RestAxes, AreTheExactRotationOfARigidThing) {
-  const Rigid rigid;
+  const Turn rigid;
   const V3f p(0.3f, -0.1f, 0.2f), q(0.05f, 0.4f, 0.1f);  // of a crease: no right angle
   const V3f d = rigid.turned(p), e = rigid.turned(q);
   float x[3] = {}, y[3] = {}, z[3] = {};
