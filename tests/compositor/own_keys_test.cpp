@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "compositor/map_frame.h"
+#include "compositor/write_frame_picture.h"
 #include "look/look_sections.h"
 
 namespace kagefude {
