@@ -16,10 +16,11 @@ import zlib
 
 import numpy as np
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "blender_export"))
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
-from exr_pixels import read_exr  # noqa: E402  (after the path)
+from exr_planes import read_planes  # noqa: E402  (after the path)
 
+CHANNELS = "IndexOB.V", "Vector.X", "Vector.Y", "Rest.R", "Rest.G", "Rest.B"
 MOST_ABOVE_RIGID = 0.10
 # Legs are below, head and tail beyond these, along the axes of the rest positions.
 PARTS = {"fox": {"up": 2, "legs": 30, "long": 1, "from": -35, "to": 45},
@@ -67,14 +68,10 @@ def shifted(plane, x, y):
 
 class Frame:
     def __init__(self, aovs, picture):
-        pixels = read_exr(aovs)[0]
-
-        def plane(name):
-            return np.array(pixels["data." + name], dtype=np.float64)
-        self.ids = plane("IndexOB.V")
-        self.rest = np.stack([plane("Rest." + axis) for axis in "RGB"])
-        self.motion = plane("Vector.X"), plane("Vector.Y")
-        self.strokes = np.array(read_exr(picture)[0]["R"], dtype=np.float64)
+        planes = read_planes(aovs, ["data." + name for name in CHANNELS])
+        ids, x, y, *rest = planes.values()
+        self.ids, self.motion, self.rest = ids, (x, y), np.stack(rest)
+        self.strokes = read_planes(picture, ["R"])["R"]
 
 
 def compared(now, before):

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "image/clones.h"
-#include "passes/brush/block_axes.h"
+#include "passes/brush/block_space.h"
 #include "passes/brush/brush_taps.h"
 #include "passes/brush/rest_block.h"
 
@@ -114,23 +114,20 @@ void placesAlong(V3f axis, V3f origin, int count, int k, BrushBlock& block) {
 }
 
 // Shares of the object's axes, as addHeldTaps; `normal` is zero where there is none.
-template <class Axes>
-__attribute__((always_inline)) inline void weighAlong(V3f v, V3f g, const Axes& axes, float near,
-                                                      int count, BrushBlock& block) {
-  const float *__restrict px = block.here.x + 1, *__restrict py = block.here.y + 1,
-                          *__restrict pz = block.here.z + 1;
+template <class Space>
+__attribute__((always_inline)) inline void weighAlong(const StrokeCentre& centre,
+                                                      const Space& space, float near, int count,
+                                                      BrushBlock& block) {
+  const V3f v = centre.axis, g = centre.position;
   const float *__restrict nx = block.normalX, *__restrict ny = block.normalY,
                           *__restrict nz = block.normalZ;
   float* __restrict w0 = block.weight[0], * __restrict w1 = block.weight[1], * __restrict w2 = block.weight[2];
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
-    const float x = px[i] - g.x, y = py[i] - g.y, z = pz[i] - g.z;
-    const float rx = v.y * z - v.z * y, ry = v.z * x - v.x * z, rz = v.x * y - v.y * x;
-    const float off = nx[i] * rx + ny[i] * ry + nz[i] * rz;
-    const float tx = rx - nx[i] * off, ty = ry - ny[i] * off, tz = rz - nz[i] * off;
-    const float alongA = axes.along(0, i, tx, ty, tz);
-    const float alongB = axes.along(1, i, tx, ty, tz);
-    const float alongC = axes.along(2, i, tx, ty, tz);
+    const V3f t = directionRound(v, g, space.x[i], space.y[i], space.z[i], nx[i], ny[i], nz[i]);
+    const float alongA = space.along(0, t.x, t.y, t.z);
+    const float alongB = space.along(1, t.x, t.y, t.z);
+    const float alongC = space.along(2, t.x, t.y, t.z);
     const float partA = near * near + alongA * alongA, partB = near * near + alongB * alongB,
                 partC = near * near + alongC * alongC;
     const float largerAB = partA > partB ? partA : partB;
@@ -149,13 +146,14 @@ __attribute__((always_inline)) inline void weighAlong(V3f v, V3f g, const Axes& 
 }
 
 KAGEFUDE_CLONES
-void weighObjectAxes(V3f v, V3f g, ObjectAxes object, float near, int count, BrushBlock& block) {
-  weighAlong(v, g, SameAxes(object), near, count, block);
+void weighObjectAxes(const StrokeCentre& centre, const ObjectAxes& object, float near, int count,
+                     BrushBlock& block) {
+  weighAlong(centre, WorldSpace(block, object), near, count, block);
 }
 
 KAGEFUDE_CLONES
-void weighRestAxes(V3f v, V3f g, float near, int count, BrushBlock& block) {
-  weighAlong(v, g, PixelAxes(block), near, count, block);
+void weighRestAxes(const StrokeCentre& centre, float near, int count, BrushBlock& block) {
+  weighAlong(centre, RestSpace(block), near, count, block);
 }
 
 // Turns shares into weights that keep the contrast (or not), and finds the row mean's.
@@ -222,12 +220,13 @@ void prepareBlock(const BrushInput& in, const BrushAnchor& anchor, int first, in
   loadBlock(in, anchor, first, end, y, block);
   const int count = end - first;
   const float finer = 1.0f - anchor.coarser;
-  const BrushAnchor::Point& point = anchor.points[0];
+  const bool atRest = liesAtRest(in, anchor);
+  const StrokeCentre centre = strokeCentre(anchor, anchor.points[0], atRest);
   const float near = heldNearAxis * anchor.mappingDistance * (1.0f + anchor.coarser);
-  if (liesAtRest(in, anchor))
-    weighRestAxes(point.frame.axis, point.position, near, count, block);
+  if (atRest)
+    weighRestAxes(centre, near, count, block);
   else
-    weighObjectAxes(point.frame.axis, point.position, anchor.object, near, count, block);
+    weighObjectAxes(centre, anchor.object, near, count, block);
   gainContrast(in.params.contrast, finer * finer + anchor.coarser * anchor.coarser,
                in.params.crossFade == BrushParams::CrossFade::variance ? 1.0f : 0.0f, count, block);
 }

@@ -21,12 +21,11 @@ struct BrushBlock {
   };
   Line above, here, below;
   Change across, down;
+  /// Unit, zero where it is not known; at rest along the object's axes, see BrushPixel.
   alignas(64) float normalX[brushBlock], normalY[brushBlock], normalZ[brushBlock];
   /// Along each of the object's axes: the place, its change across and down, the axis's weight.
   alignas(64) float place[3][brushBlock], placeAcross[3][brushBlock], placeDown[3][brushBlock];
   alignas(64) float weight[3][brushBlock];
-  /// Only at rest: the axes' directions at each pixel, see BrushPixel.
-  alignas(64) float axisX[3][brushBlock], axisY[3][brushBlock], axisZ[3][brushBlock];
   /// Weight of the row's mean; with the axes' weights it makes 1.
   alignas(64) float meanGain[brushBlock];
 };

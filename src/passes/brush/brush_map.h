@@ -53,11 +53,17 @@ BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> ton
 /// **[ours]** `rest` holds strokes to surfaces that deform: where each pixel's surface point lies
 /// along the object's axes while nothing deforms it, in world units from the object's origin;
 /// finite at every pixel of an anchor that is `atRest`. Places, their footprints and the reference
-/// points' shares are then taken from it. Which axes the strokes run along, and which plane the
-/// surface faces, is still decided by the light and the surface as it is seen, through the local
-/// map between the two (restAxes). With `stretch = world` held strokes change their octave by the
-/// stretch of that map (strokeOctave). A thing that does not deform looks as it does without,
-/// within roundings of its positions' changes.
+/// points' shares are then taken from it. Which axes held strokes run along, and which plane the
+/// surface faces, is decided there too, by the light and the surface as it is seen: with the
+/// object's axes as the columns of O, a reference point G on the light's axis V, the place q, and
+/// the seen unit normal N,
+///   v = Oᵀ V, g = Oᵀ (G - origin), n = A N / |A N|, r = v × (q - g), t = r - n (n · r),
+/// t's squared parts choose the axes, n's the plane. A is the local map of the pixel's neighbours
+/// (restAxes), which carries the changes of position to those of the place and the normal of the
+/// one to that of the other. V turns with the object's matrix and not with A: A differs from
+/// triangle to triangle and from frame to frame, and an axis carried by it flickers. With `stretch
+/// = world` held strokes change their octave by the stretch of that map (strokeOctave). A thing
+/// that does not deform looks as it does without, within roundings of its positions' changes.
 void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
                 View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
                 std::span<const Strip> strips, const BrushParams& params, BrushResult& result,

@@ -36,8 +36,8 @@ void addRing(const BrushAnchor::Point& point, float mappingDistance, float shift
 }
 
 // Part of the direction round the axis that lies in the surface.
-V3f strokeDirection(const BrushAnchor::Point& point, const BrushPixel& pixel) {
-  const V3f round = point.frame.axis.cross(pixel.position - point.position);
+V3f strokeDirection(const StrokeCentre& centre, const BrushPixel& pixel) {
+  const V3f round = centre.axis.cross(pixel.position - centre.position);
   return round - pixel.normal * pixel.normal.dot(round);
 }
 
@@ -51,7 +51,8 @@ void strokeParts(const BrushAnchor& anchor, const BrushPixel& pixel, const Brush
   for (int i = 0; i < 2; ++i) {
     const float share = i == 0 ? 1.0f - place.next : place.next;
     if (!(share > 0.0f)) continue;
-    const V3f along = strokeDirection(anchor.points[place.point + static_cast<size_t>(i)], pixel);
+    const BrushAnchor::Point& point = anchor.points[place.point + static_cast<size_t>(i)];
+    const V3f along = strokeDirection(strokeCentre(anchor, point, pixel.atRest), pixel);
     for (int k = 0; k < 3; ++k) parts[k] += share * along.dot(axes[k]) * along.dot(axes[k]);
   }
 }

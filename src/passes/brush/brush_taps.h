@@ -30,14 +30,16 @@ inline constexpr float objectNearAxis = 1.0f;
 
 /// One pixel of the brush pass: position, normal (zero: unknown), tone, and their change to the
 /// next pixel in x and y; and what held strokes go by: where it lies along the object's axes, how
-/// that changes, and these axes' directions at the pixel.
+/// that changes, and these axes' directions. Held strokes at rest have all of it along the object's
+/// axes, as it rests.
 struct BrushPixel {
   V3f position, normal;
   V3f dx{0, 0, 0}, dy{0, 0, 0};
   float tone = 0, toneDx = 0, toneDy = 0;
   float place[3] = {0, 0, 0}, placeDx[3] = {0, 0, 0}, placeDy[3] = {0, 0, 0};
-  V3f axes[3];      ///< world; a direction's part along axis k is its product with axes[k]
-  float along = 0;  ///< place on the anchor's long side
+  V3f axes[3];  ///< a direction's part along axis k is its product with axes[k]
+  bool atRest = false;
+  float along = 0;                  ///< place on the anchor's long side
   StrokeOctave octave{1, 0, 0, 0};  ///< of held strokes
 };
 
@@ -69,10 +71,22 @@ inline float placeAlong(const BrushAnchor& anchor, const V3f& p) {
   return anchor.longSide.dot(p - anchor.object.origin);
 }
 
-/// The long side along the object's axes.
-inline V3f sideAtRest(const BrushAnchor& anchor) {
-  const V3f& side = anchor.longSide;
-  return {side.dot(anchor.object.x), side.dot(anchor.object.y), side.dot(anchor.object.z)};
+/// Parts of a direction of the world along an object's axes.
+inline V3f alongAxes(const ObjectAxes& object, const V3f& d) {
+  return {d.dot(object.x), d.dot(object.y), d.dot(object.z)};
+}
+
+/// What strokes run round: the axis from the light, and a point on it.
+struct StrokeCentre {
+  V3f axis, position;
+};
+
+/// Of a reference point in the world; at rest along the object's axes, from its origin.
+inline StrokeCentre strokeCentre(const BrushAnchor& anchor, const BrushAnchor::Point& point,
+                                 bool atRest) {
+  if (!atRest) return {point.frame.axis, point.position};
+  return {alongAxes(anchor.object, point.frame.axis),
+          alongAxes(anchor.object, point.position - anchor.object.origin)};
 }
 
 /// Smooth weights at a place on the anchor's long side, over `blend` of each gap between two

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "image/clones.h"
-#include "passes/brush/block_axes.h"
+#include "passes/brush/block_space.h"
 #include "passes/brush/brush_taps.h"
 
 namespace kagefude {
@@ -16,24 +16,21 @@ struct Parts {
 };
 
 // Adds the parts round one reference point, weighed by `share`, as strokeParts.
-template <class Axes>
-__attribute__((always_inline)) inline void addPartsAlong(V3f v, V3f g, const Axes& axes,
+template <class Space>
+__attribute__((always_inline)) inline void addPartsAlong(const StrokeCentre& centre,
+                                                         const Space& space,
                                                          const float* __restrict share, int count,
                                                          const BrushBlock& block, Parts& parts) {
-  const float *__restrict px = block.here.x + 1, *__restrict py = block.here.y + 1,
-                          *__restrict pz = block.here.z + 1;
+  const V3f v = centre.axis, g = centre.position;
   const float *__restrict nx = block.normalX, *__restrict ny = block.normalY,
                           *__restrict nz = block.normalZ;
   float* __restrict pa = parts.along[0], * __restrict pb = parts.along[1], * __restrict pc = parts.along[2];
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
-    const float x = px[i] - g.x, y = py[i] - g.y, z = pz[i] - g.z;
-    const float rx = v.y * z - v.z * y, ry = v.z * x - v.x * z, rz = v.x * y - v.y * x;
-    const float off = nx[i] * rx + ny[i] * ry + nz[i] * rz;
-    const float tx = rx - nx[i] * off, ty = ry - ny[i] * off, tz = rz - nz[i] * off;
-    const float alongA = axes.along(0, i, tx, ty, tz);
-    const float alongB = axes.along(1, i, tx, ty, tz);
-    const float alongC = axes.along(2, i, tx, ty, tz);
+    const V3f t = directionRound(v, g, space.x[i], space.y[i], space.z[i], nx[i], ny[i], nz[i]);
+    const float alongA = space.along(0, t.x, t.y, t.z);
+    const float alongB = space.along(1, t.x, t.y, t.z);
+    const float alongC = space.along(2, t.x, t.y, t.z);
     pa[i] += share[i] * alongA * alongA;
     pb[i] += share[i] * alongB * alongB;
     pc[i] += share[i] * alongC * alongC;
@@ -41,15 +38,15 @@ __attribute__((always_inline)) inline void addPartsAlong(V3f v, V3f g, const Axe
 }
 
 KAGEFUDE_CLONES
-void addObjectParts(V3f v, V3f g, const ObjectAxes& object, const float* share, int count,
-                    const BrushBlock& block, Parts& parts) {
-  addPartsAlong(v, g, SameAxes(object), share, count, block, parts);
+void addObjectParts(const StrokeCentre& centre, const ObjectAxes& object, const float* share,
+                    int count, const BrushBlock& block, Parts& parts) {
+  addPartsAlong(centre, WorldSpace(block, object), share, count, block, parts);
 }
 
 KAGEFUDE_CLONES
-void addRestParts(V3f v, V3f g, const float* share, int count, const BrushBlock& block,
-                  Parts& parts) {
-  addPartsAlong(v, g, PixelAxes(block), share, count, block, parts);
+void addRestParts(const StrokeCentre& centre, const float* share, int count,
+                  const BrushBlock& block, Parts& parts) {
+  addPartsAlong(centre, RestSpace(block), share, count, block, parts);
 }
 
 // Places on the anchor's long side.
@@ -91,7 +88,7 @@ void findParts(const BrushInput& in, const BrushAnchor& anchor, int count, const
   alignas(64) float before[brushBlock], beyond[brushBlock], share[brushBlock], along[brushBlock];
   const bool atRest = liesAtRest(in, anchor);
   if (anchor.points.size() > 1 && atRest)
-    findAlongAtRest(sideAtRest(anchor), count, block, along);
+    findAlongAtRest(alongAxes(anchor.object, anchor.longSide), count, block, along);
   else if (anchor.points.size() > 1)
     findAlong(anchor.longSide, anchor.object.origin, count, block, along);
   std::fill_n(before, count, 1.0f);
@@ -102,11 +99,11 @@ void findParts(const BrushInput& in, const BrushAnchor& anchor, int count, const
       shareBeyond(along, anchor.points[j].along, anchor.points[j + 1].along, in.params.pointBlend,
                   count, beyond);
     for (int i = 0; i < count; ++i) share[i] = before[i] * (1.0f - beyond[i]);
-    const BrushAnchor::Point& point = anchor.points[j];
+    const StrokeCentre centre = strokeCentre(anchor, anchor.points[j], atRest);
     if (atRest)
-      addRestParts(point.frame.axis, point.position, share, count, block, parts);
+      addRestParts(centre, share, count, block, parts);
     else
-      addObjectParts(point.frame.axis, point.position, anchor.object, share, count, block, parts);
+      addObjectParts(centre, anchor.object, share, count, block, parts);
     std::copy_n(beyond, count, before);
   }
 }
@@ -119,22 +116,22 @@ inline float shareOfFirst(float first, float second) {
 }
 
 // How much the surface faces each axis; where no normal is known, by its positions.
-template <class Axes>
-__attribute__((always_inline)) inline void findFacesAlong(const Axes& axes, int count,
+template <class Space>
+__attribute__((always_inline)) inline void findFacesAlong(const Space& space, int count,
                                                           const BrushBlock& block,
                                                           GrainTaps& taps) {
   float* __restrict fa = taps.faces[0], * __restrict fb = taps.faces[1], * __restrict fc = taps.faces[2];
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const float x = block.normalX[i], y = block.normalY[i], z = block.normalZ[i];
-    const float dx = block.across.x[i], dy = block.across.y[i], dz = block.across.z[i];
-    const float ex = block.down.x[i], ey = block.down.y[i], ez = block.down.z[i];
+    const float dx = space.across[0][i], dy = space.across[1][i], dz = space.across[2][i];
+    const float ex = space.down[0][i], ey = space.down[1][i], ez = space.down[2][i];
     const bool known = x * x + y * y + z * z > 0.0f;
     const float nx = known ? x : dy * ez - dz * ey;
     const float ny = known ? y : dz * ex - dx * ez;
     const float nz = known ? z : dx * ey - dy * ex;
-    const float onA = axes.along(0, i, nx, ny, nz), onB = axes.along(1, i, nx, ny, nz),
-                onC = axes.along(2, i, nx, ny, nz);
+    const float onA = space.along(0, nx, ny, nz), onB = space.along(1, nx, ny, nz),
+                onC = space.along(2, nx, ny, nz);
     const float faceA = onA * onA + leastFacing, faceB = onB * onB + leastFacing,
                 faceC = onC * onC + leastFacing;
     const float largerAB = faceA > faceB ? faceA : faceB;
@@ -148,12 +145,12 @@ __attribute__((always_inline)) inline void findFacesAlong(const Axes& axes, int 
 KAGEFUDE_CLONES
 void findObjectFaces(const ObjectAxes& object, int count, const BrushBlock& block,
                      GrainTaps& taps) {
-  findFacesAlong(SameAxes(object), count, block, taps);
+  findFacesAlong(WorldSpace(block, object), count, block, taps);
 }
 
 KAGEFUDE_CLONES
 void findRestFaces(int count, const BrushBlock& block, GrainTaps& taps) {
-  findFacesAlong(PixelAxes(block), count, block, taps);
+  findFacesAlong(RestSpace(block), count, block, taps);
 }
 
 /// What turns a block's places into places on the grain, for one octave.

@@ -1,6 +1,7 @@
 #include "passes/brush/rest_block.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "image/clones.h"
 #include "passes/brush/rest_axes.h"
@@ -56,9 +57,10 @@ void placeChanges(const float* __restrict here, const float* __restrict behind,
 }
 
 KAGEFUDE_CLONES
-void findAxes(const ObjectAxes& object, int count, BrushBlock& block) {
+void carryNormals(const ObjectAxes& object, int count, BrushBlock& block) {
   const V3f a = object.x, b = object.y, c = object.z;
   const BrushBlock::Change &across = block.across, &down = block.down;
+  float* __restrict nx = block.normalX, * __restrict ny = block.normalY, * __restrict nz = block.normalZ;
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
     const RestChange change{
@@ -72,15 +74,14 @@ void findAxes(const ObjectAxes& object, int count, BrushBlock& block) {
         {block.placeDown[0][i], block.placeDown[1][i], block.placeDown[2][i]}};
     float x[3] = {a.x, b.x, c.x}, y[3] = {a.y, b.y, c.y}, z[3] = {a.z, b.z, c.z};
     restAxes(change, x, y, z);
-    block.axisX[0][i] = x[0];
-    block.axisX[1][i] = x[1];
-    block.axisX[2][i] = x[2];
-    block.axisY[0][i] = y[0];
-    block.axisY[1][i] = y[1];
-    block.axisY[2][i] = y[2];
-    block.axisZ[0][i] = z[0];
-    block.axisZ[1][i] = z[1];
-    block.axisZ[2][i] = z[2];
+    const float onA = x[0] * nx[i] + y[0] * ny[i] + z[0] * nz[i];
+    const float onB = x[1] * nx[i] + y[1] * ny[i] + z[1] * nz[i];
+    const float onC = x[2] * nx[i] + y[2] * ny[i] + z[2] * nz[i];
+    const float length = std::sqrt(onA * onA + onB * onB + onC * onC);
+    const float scale = length > 0.0f ? 1.0f / length : 0.0f;
+    nx[i] = onA * scale;
+    ny[i] = onB * scale;
+    nz[i] = onC * scale;
   }
 }
 
@@ -102,7 +103,7 @@ void loadRest(const BrushInput& in, const ObjectAxes& object, int first, int end
     placeChanges(here.at + 1, here.at + 2, here.at, sideAcross, count, block.placeAcross[k]);
     placeChanges(here.at + 1, below.at + 1, above.at + 1, sideDown, count, block.placeDown[k]);
   }
-  findAxes(object, count, block);
+  carryNormals(object, count, block);
 }
 
 }  // namespace kagefude
