@@ -6,7 +6,7 @@
 
 int main(int argc, char** argv) try {
   if (argc != 4) throw std::runtime_error("usage: comp_buffer LOOK FRAME OUTPUT");
-  const kagefude::ImageComp look(kagefude::readLook(argv[1]));
+  const kagefude::ImageComp look(kagefude::readLook(argv[1], {}));
   const OIIO::ImageBuf frame(argv[2]);  // could as well come from a renderer
   std::vector<std::string> warnings;
   const OIIO::ImageBuf painted = look.comp(frame, 1, "", &warnings);

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "compositor/map_frame.h"
+#include "compositor/write_frame_picture.h"
 #include "look/look_sections.h"
 
 namespace kagefude {
@@ -112,7 +113,7 @@ class OwnKeys : public ::testing::Test {
     writeExr(frame.folder / name, image);
   }
 
-  /// The frame and its preview as they are written.
+  /// The frame, its preview and a JPEG of it as they are written.
   std::string written(const std::string& lookText) const {
     const std::filesystem::path path = frame.write(), folder = frame.folder.path();
     frame.folder.write("look.toml", lookText);
@@ -125,8 +126,10 @@ class OwnKeys : public ::testing::Test {
     const FrameResult result = composeFrame(look, strips, plan, readFramePlanes(plan));
     writeFrame(look, plan, result, folder / "out.exr", {});
     const PictureOutput preview{&formatOf("out.png", "--preview")};
+    const PictureOutput jpeg{&formatOf("out.jpg", "--output")};
     writeFramePicture(look, colour, plan, result, folder / "out.png", preview, "");
-    return bytesOf(folder / "out.exr") + bytesOf(folder / "out.png");
+    writeFramePicture(look, colour, plan, result, folder / "out.jpg", jpeg, "");
+    return bytesOf(folder / "out.exr") + bytesOf(folder / "out.png") + bytesOf(folder / "out.jpg");
   }
   static std::string bytesOf(const std::filesystem::path& path) {
     std::ostringstream bytes;
@@ -230,6 +233,7 @@ const std::map<std::string, Trial> trials = {
     {"output.passthrough", {"", "output.passthrough = true"}},
     {"output.background", {"", "output.background = \"transparent\""}},
     {"output.edges", {painted, "output.edges = \"pixel\""}},
+    {"output.quality", {"", "output.quality = 10"}},
     {"output.colour", {"", "output.colour = \"float\""}},
     {"output.compression", {"", "output.compression = \"none\""}},
     {"output.scale", {"", "output.scale = 2"}},

@@ -13,7 +13,7 @@ class FramePicture : public ::testing::Test {
  protected:
   FramePicture() : frame(2, 1), colour(look.colourConfig()) {
     look = readLook({}, {"colour.view=Raw"});
-    plan = planFrame(look, frame.write(), 1);
+    plan.image = openImage(frame.write());
     for (Floats* plane : {&result.colour.x, &result.colour.y, &result.colour.z})
       *plane = Floats(2, 1, 0.25f);
     result.alpha = Floats(2, 1, 0.5f);

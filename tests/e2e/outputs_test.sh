@@ -150,7 +150,7 @@ check "something hidden is left" test -z "$(find . -name '.*' -type f)"
 check "the report has no pictures" test "$(find report -name '*.png' | wc -l)" -ge 3
 
 # Layers have no place there, which is said; a limit on file sizes is what it is.
-comp one.0001.exr layers.png --progress plain --set 'output.layers=["visibility.*"]' 2>said
+"$kagefude" comp look.toml one.0001.exr -o layers.png --progress plain --set 'output.layers=["visibility.*"]' 2>said
 check "layers are left out without a word" grep -q "output.layers and output.passthrough go into EXRs" said
 (ulimit -f 100; comp one.0001.exr large.tif --set output.colour=float) 2>said && fail "a limit was exceeded" || pass
 check "the limit is not named: $(cat said)" grep -q "ulimit -f" said
