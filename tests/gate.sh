@@ -2,7 +2,7 @@
 # The gate: the batch loop under the thread sanitizer; the library under the address and
 # undefined-behaviour sanitizers with plane indices checked, tried by the unit tests of build/release
 # and by a minute of fuzzing for each reader.
-#   tests/gate.sh [build|tests|unit|fuzz] [SECONDS]     without a step: all of them; CI leaves `unit` out
+#   tests/gate.sh [build|tests|unit|fuzz] [SECONDS]     without a step: all of them
 # `build` wants the release build configured; its tests are compiled there and linked here.
 set -euo pipefail
 cd "$(dirname "$0")/.."
