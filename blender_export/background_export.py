@@ -18,6 +18,7 @@ _PROGRESS = re.compile(r"Progress: (\d+)%")
 # Blender's line above a Python traceback, and the sentence that ends one.
 _TRACEBACK = "Error: Python:"
 _RAISED = re.compile(r"[\w.]*(Error|Exception)(: .*)?")
+_NOTE = "note: "
 SECONDS_TO_END = 5.0
 
 
@@ -29,6 +30,7 @@ class BackgroundExport:
         options = arguments.parse_arguments(words)
         self._names = output_names.parse_output(options.output, len(options.frames))
         self.percent, self.status, self.error, self.finished = 0, "Starting", None, False
+        self.notes = []
         self._in_traceback = False
         self._folder = tempfile.mkdtemp(prefix="kagefude-")
         copy = os.path.join(self._folder, "shot.blend")
@@ -73,6 +75,21 @@ class BackgroundExport:
         self.error = "cancelled"
         self._end(1)
 
+    def reports(self, output):
+        """What an operator reports at the end, as (kind, words): the notes, then how it went.
+
+        Blender's status bar shows the last of them for some seconds, its Info editor all.
+        """
+        notes = [('WARNING', note) for note in self.notes]
+        if self.error == "cancelled":
+            return [*notes, ('WARNING', "Export cancelled")]
+        if self.error:
+            return [*notes, ('ERROR', f"Export failed: {self.error}")]
+        if not notes:
+            return [('INFO', f"Exported to {output}")]
+        count = f"{len(notes)} note{'s' if len(notes) > 1 else ''}"
+        return [*notes, ('WARNING', f"Exported to {output}, with {count} (see the Info editor)")]
+
     def _read(self):
         for line in self._process.stdout:
             self._lines.put(line)
@@ -88,8 +105,10 @@ class BackgroundExport:
             self.error, self._in_traceback = self.error or line, False
         elif line.startswith("Error:"):
             self.error = self.error or line[len("Error:"):].strip()
-        elif line.startswith(("frame ", "note: ")):
+        elif line.startswith("frame "):
             self.status = line
+        elif line.startswith(_NOTE) and line[len(_NOTE):] not in self.notes:
+            self.notes.append(line[len(_NOTE):])
 
     def _end(self, status):
         self.finished = True

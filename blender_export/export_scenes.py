@@ -265,9 +265,12 @@ class DataScene:
             for view_layer in scene.view_layers:
                 show_only(view_layer, [self.subjects, lit.get(view_layer.name)])
         # Layers that share their scene's data between them must have the same AOVs, or Cycles
-        # writes some into others (before 5.2).
+        # writes some into others (before 5.2), unless their materials change between the layers.
+        # So those that `_set_sight` changes can do without here, which saves a third of the depth
+        # map's memory; without those of rest positions the geometry would be read again.
+        masks = [(name, 'VALUE') for name in self._sight_names]
         for view_layer in self.scene.view_layers:
-            for name, kind in self._rest_aovs + [(aov, 'VALUE') for aov in self._sight_names]:
+            for name, kind in self._rest_aovs + (masks if view_layer.name != "depth" else []):
                 made = view_layer.aovs.add()
                 made.name, made.type = name, kind
 

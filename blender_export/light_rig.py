@@ -127,5 +127,5 @@ class LightRig:
     def _refuse_what_cannot_work(self):
         if self.arrangement.kind == "pair" and self.light.data.type == 'SUN':
             raise ExportError(f"light '{self.light.name}' is a sun, whose shadows do not change "
-                              f"along its axis, so a pair of masks would be twice the same; use "
-                              f"--masks line:5 or --masks disc:5")
+                              f"along its axis, so a pair of masks would be twice the same; take "
+                              f"masks on a line or a disc (line:5, disc:5)")

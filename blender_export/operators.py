@@ -73,14 +73,9 @@ class KAGEFUDE_OT_export(bpy.types.Operator):
         context.window_manager.kagefude_percent = -1
         context.workspace.status_text_set(None)
         _redraw(context)
-        if self._export.error == "cancelled":
-            self.report({'WARNING'}, "Export cancelled")
-            return {'CANCELLED'}
-        if self._export.error:
-            self.report({'ERROR'}, f"Export failed: {self._export.error}")
-            return {'CANCELLED'}
-        self.report({'INFO'}, f"Exported to {context.scene.kagefude.output}")
-        return {'FINISHED'}
+        for kind, words in self._export.reports(context.scene.kagefude.output):
+            self.report({kind}, words)
+        return {'CANCELLED'} if self._export.error else {'FINISHED'}
 
 
 class KAGEFUDE_OT_cancel(bpy.types.Operator):

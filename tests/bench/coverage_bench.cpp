@@ -3,6 +3,7 @@
 #include <malloc.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>

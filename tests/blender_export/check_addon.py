@@ -67,6 +67,7 @@ def check_export(output):
     wait_for(failing)
     assert "did you mean 'Spot'" in failing.error, failing.error
     check_traceback(background)
+    check_reports(background)
     stopped = background(["--output", output, "--frames=1-1000", "--light=Spot"])
     stopped.cancel()
     assert stopped.finished and stopped.error == "cancelled"
@@ -86,6 +87,27 @@ def check_traceback(background):
         ended._take(line)
     assert ended.error == "AttributeError: 'NoneType' object has no attribute 'use_chaining'", \
         ended.error
+
+
+def check_reports(background):
+    """What the exporter noted stays after the export, each once; no words of a command line."""
+    ended = background(["--output", "/nowhere/a.####.exr", "--frames=2", "--light=Sun",
+                        "--masks", "pair"])
+    wait_for(ended)
+    (kind, words), = ended.reports("//a.exr")
+    assert kind == 'ERROR' and words.startswith("Export failed: light 'Sun' is a sun"), words
+    assert "--" not in words, words
+    ended.error = None
+    assert ended.reports("//a.exr") == [('INFO', "Exported to //a.exr")], ended.reports("//a.exr")
+    for line in ("note: light 'Spot' has no size", "frame 2 (2 of 2)",
+                 "note: light 'Spot' has no size", "note: volumes cast no shadow"):
+        ended._take(line)
+    assert ended.reports("//a.exr") == [
+        ('WARNING', "light 'Spot' has no size"), ('WARNING', "volumes cast no shadow"),
+        ('WARNING', "Exported to //a.exr, with 2 notes (see the Info editor)")], \
+        ended.reports("//a.exr")
+    ended.error = "cancelled"
+    assert ended.reports("//a.exr")[-1] == ('WARNING', "Export cancelled")
 
 
 def main():

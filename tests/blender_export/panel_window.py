@@ -21,6 +21,7 @@ from paths import exporter  # noqa: E402
 STATE = sys.argv[-1]
 ticks = itertools.count()
 opened = False
+exports = {"started": 0, "ended": 0, "said": ""}
 
 
 def hide_other_panels():
@@ -55,9 +56,30 @@ def tell_when_opened(panel):
     panel.draw = draw_and_tell
 
 
+def count_exports():
+    """Tell how many exports were started and what was reported of those that have ended.
+
+    One that fails may be over before anybody has looked at its progress.
+    """
+    background = exporter("background_export").BackgroundExport
+    start, report = background.__init__, background.reports
+
+    def start_and_count(self, words):
+        start(self, words)
+        exports["started"] += 1
+
+    def report_and_tell(self, output):
+        said = report(self, output)
+        exports["ended"] += 1
+        exports["said"] = said[-1][1]
+        return said
+    background.__init__, background.reports = start_and_count, report_and_tell
+
+
 def write_state(window, region):
     settings = window.scene.kagefude
-    state = {"ticks": next(ticks), "opened": opened, "percent": bpy.context.window_manager.kagefude_percent, "masks": settings.masks,
+    state = {"ticks": next(ticks), "opened": opened, **exports,
+             "percent": bpy.context.window_manager.kagefude_percent, "masks": settings.masks,
              "frames": settings.frames, "frame_list": settings.frame_list,
              "output": settings.output, "dirty": bpy.data.is_dirty,
              "left": region.x, "top": window.height - region.y - region.height,
@@ -77,6 +99,7 @@ def watch():
 
 bpy.context.preferences.view.show_splash = False
 tell_when_opened(exporter("panel").KAGEFUDE_PT_export)
+count_exports()
 exporter("panel").register()
 hide_other_panels()
 bpy.app.timers.register(watch, first_interval=1.0)

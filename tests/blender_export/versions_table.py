@@ -14,6 +14,7 @@ import os
 import subprocess
 import sys
 
+from depth_maps import DepthMap, depth_pairs
 from exr_pixels import read_exr
 
 EXAMPLES = ("still_life", "moving_light")
@@ -46,7 +47,7 @@ class Frame:
 
     def depth_maps(self):
         for light in self.document["lights"]:
-            yield self.read(light["depth_map"]["file"])["Depth.V"]
+            yield DepthMap(light["depth_map"], self.read(light["depth_map"]["file"])["Depth.V"])
 
 
 def silhouettes(ids):
@@ -85,10 +86,14 @@ def rms(reference, other, kind):
 
 
 def depth_difference(reference, other):
-    """RMSE of the lights' depth maps, relative to the depth, where both hit something."""
-    squares = [((one - two) / one) ** 2 for first, second in
+    """RMSE of the lights' depth maps, relative to the depth, away from silhouettes.
+
+    A map is framed by what the shot shows in shadow, so that one pixel of a mask turns it. Hence
+    points of one map are looked up in the other.
+    """
+    squares = [(wanted / found - 1.0) ** 2 for first, second in
                zip(reference.depth_maps(), other.depth_maps())
-               for one, two in zip(flat(first), flat(second)) if one < 1e9 and two < 1e9]
+               for wanted, found in depth_pairs(first, second)]
     return math.sqrt(sum(squares) / len(squares))
 
 

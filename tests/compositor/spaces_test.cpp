@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "compositor/read_frame.h"
 #include "compositor/rendered_eye.h"
 #include "frame/fit_camera.h"

@@ -1,5 +1,6 @@
 #include "passes/light_shape/light_shape.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "image/parallel.h"

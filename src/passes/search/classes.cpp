@@ -1,5 +1,7 @@
 #include "passes/search/classes.h"
 
+#include <algorithm>
+
 #include "image/clones.h"
 #include "image/parallel.h"
 #include "passes/require_size.h"
