@@ -73,10 +73,11 @@ make_root() {
     mount --bind "$out" "$root/out" && cp /etc/resolv.conf "$root/etc/"
 }
 
-# Without the last two Debian's Blender 5 complains at every start, though it does not ask for them.
+# Without the first two Debian's Blender 5 complains at every start, though it does not ask for them;
+# the third lets the tests write HEIC files, which Debian 12's libheif does by itself.
 install_packages() {
   within "$1" apt-get update -qq && within "$1" .ci/ensure_packages build test render &&
-    within "$1" apt-get install -y -qq --no-install-recommends python3-cattr python3-requests
+    within "$1" apt-get install -y -qq --no-install-recommends python3-cattr python3-requests libheif-plugin-x265
 }
 
 exporter_tests() { within "$1" python3 -m unittest discover -s tests/blender_export -p 'test_*.py'; }
