@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, renders the example shot with Blender, comps it, and says which
-# pictures to open.   examples/run.sh [--animation]   (the 24 frames as well)
+# pictures to open.   examples/run.sh [--animation] [--walk]   (24 frames of a moving light, of a walking
+# character)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=examples/out
@@ -8,7 +9,8 @@ shots=(still_life)
 for argument in "$@"; do
   case $argument in
     --animation) shots+=(moving_light) ;;
-    *) echo "usage: examples/run.sh [--animation]" >&2; exit 2 ;;
+    --walk) shots+=(walk) ;;
+    *) echo "usage: examples/run.sh [--animation] [--walk]" >&2; exit 2 ;;
   esac
 done
 
@@ -20,7 +22,7 @@ kagefude=build/release/kagefude
 examples/make_strips.sh "$kagefude" $out/strips >/dev/null
 
 # Prints the frame range of a shot.
-frames_of() { [ "$1" = moving_light ] && echo 1-24 || echo 1; }
+frames_of() { [ "$1" = still_life ] && echo 1 || echo 1-24; }
 
 for shot in "${shots[@]}"; do
   folder=$out/$shot

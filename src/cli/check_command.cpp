@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <ostream>
@@ -15,11 +16,26 @@ namespace kagefude {
 namespace {
 
 struct CheckOptions {
-  std::string comped, unstyled, aovs, frames, look, plot, jsonFile;
+  std::string comped, unstyled, aovs, frames, look, plot, moves, jsonFile;
   std::string tone = "brush.tone";
   std::vector<std::string> overrides;
   bool json = false;
 };
+
+void printObjects(std::ostream& out, const std::vector<ObjectMoves>& objects) {
+  constexpr size_t most = 8;
+  for (size_t i = 0; i < std::min(most, objects.size()); ++i) {
+    const ObjectMoves& o = objects[i];
+    out << fmt::format(
+        "strokes of {}: change {:.5f}, {:.2f} of their own strength (unrelated ones 1.41); worst "
+        "frame {} ({:.2f}), there most at pixel {},{}\n",
+        o.name.empty() ? fmt::format("{:08x}", o.id) : o.name, o.change, o.ratio, o.worstFrame,
+        o.worst, o.worstX, o.worstY);
+  }
+  if (objects.size() > most)
+    out << fmt::format("and of {} more objects, which hold stiller (--json lists them)\n",
+                       objects.size() - most);
+}
 
 void print(std::ostream& out, const CheckResult& r) {
   out << fmt::format(
@@ -36,11 +52,13 @@ void print(std::ostream& out, const CheckResult& r) {
       "({:+.0f} % to {:+.0f} %)\n",
       r.contrast, 100 * (r.contrastLow - 1), 100 * (r.contrastHigh - 1), r.grain,
       100 * (r.grainLow - 1), 100 * (r.grainHigh - 1));
+  printObjects(out, r.objects);
   for (const ShotBreak& found : r.breaks) out << "warning: " << found.sentence() << "\n";
 }
 
 void check(const CheckOptions& options, Console& console) {
   if (!options.plot.empty()) requireSuffix(options.plot, ".png", "--plot");
+  if (!options.moves.empty()) requireSuffix(options.moves, ".png", "--moves");
   if (!options.jsonFile.empty()) requireSuffix(options.jsonFile, ".json", "--write-json");
   CheckRequest request;
   request.comped = FramePattern(options.comped);
@@ -51,6 +69,7 @@ void check(const CheckOptions& options, Console& console) {
   request.look = readLook(options.look, options.overrides);
   const CheckResult result = checkSequence(request);
   if (!options.plot.empty()) plotCheck(result, options.plot);
+  if (!options.moves.empty()) drawMoves(result, options.moves);
   if (!options.jsonFile.empty()) writeFileAtomically(options.jsonFile, checkJson(result) + "\n");
   if (options.json)
     console.results(checkJson(result));
@@ -81,6 +100,9 @@ void addCheckCommand(CLI::App& app, Console& console, int&) {
   command->add_option("--look", options->look, "look that names the passes of other renderers");
   command->add_option("--set", options->overrides, "section.key=value, over the look's own");
   command->add_option("--plot", options->plot, "PNG to draw the curves into");
+  command->add_option("--moves", options->moves,
+                      "PNG to draw where strokes move on the surface: black is still, white as if "
+                      "unrelated, grey not compared");
   command->add_option("--write-json", options->jsonFile, "file to write the numbers into");
   command->add_flag("--json", options->json, "print the numbers as JSON");
   command->callback([options, &console] { check(*options, console); });

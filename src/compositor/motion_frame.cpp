@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "base/error.h"
+#include "compositor/rest_pass.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
 #include "image/parallel.h"
@@ -30,6 +33,33 @@ Vec3Plane expectedPositions(const MotionFrame& now, const MotionFrame& before) {
       }
   });
   return expected;
+}
+
+std::set<uint32_t> idsAtRest(const MotionFrame& frame) {
+  std::set<uint32_t> ids;
+  if (frame.rest.x.empty()) return ids;
+  uint32_t last = 0;
+  for (size_t i = 0; i < frame.ids.view().pixels(); ++i) {
+    const uint32_t id = frame.ids.row(0)[i];
+    if (id == last || id == 0 || std::isnan(frame.rest.x.row(0)[i])) continue;
+    ids.insert(id);
+    last = id;
+  }
+  return ids;
+}
+
+/// A frame's positions, with rest positions in the pixels of `ids`.
+Vec3Plane withRest(View<const uint32_t> pixels, Vec3View position, Vec3View rest,
+                   const std::set<uint32_t>& ids) {
+  Vec3Plane result(pixels.width, pixels.height);
+  parallelRows(pixels.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < pixels.width; ++x) {
+        const bool atRest = ids.count(pixels(x, y)) != 0;
+        result.set(x, y, atRest ? rest(x, y) : position.empty() ? V3f(0.0f) : position(x, y));
+      }
+  });
+  return result;
 }
 
 bool sameMatrix(const Transform& a, const Transform& b) {
@@ -71,6 +101,13 @@ MotionFrame readMotionFrame(const Look& look, const std::filesystem::path& path,
   reader.floats(plan.position.channels.at(2), result.position.z);
   reader.floats(vector.channels.at(0), result.motionX);
   reader.floats(vector.channels.at(1), result.motionY);
+  Floats restAlpha;
+  if (plan.rest) {
+    reader.floats(plan.rest->channels.at(0), result.rest.x);
+    reader.floats(plan.rest->channels.at(1), result.rest.y);
+    reader.floats(plan.rest->channels.at(2), result.rest.z);
+    if (plan.rest->channels.size() > 3) reader.floats(plan.rest->channels[3], restAlpha);
+  }
   CryptomattePlanes matte;
   Floats index;
   if (plan.idSource == IdSource::cryptomatte)
@@ -78,6 +115,7 @@ MotionFrame readMotionFrame(const Look& look, const std::filesystem::path& path,
   else
     reader.floats(plan.objectId.channels.at(0), index);
   reader.read();
+  if (plan.rest) markWithoutRest(restAlpha, result.rest);
   Vec3Plane noNormals;
   convertToWorld({plan.spaces.position, VectorSpace::automatic, NormalRange::automatic, "",
                   plan.spaces.cameraFromWorld},
@@ -85,6 +123,10 @@ MotionFrame readMotionFrame(const Look& look, const std::filesystem::path& path,
   result.ids = index.empty() ? dominantIds(matte) : roundIndices(index);
   result.dataWindow = plan.image.dataWindow;
   result.displayWindow = plan.image.displayWindow;
+  const View<const uint32_t> ids = result.ids;
+  for (const uint32_t id : std::set<uint32_t>(ids.data, ids.data + ids.pixels()))
+    if (const std::string name = plan.objectName(id); id != 0 && !name.empty())
+      result.names.emplace(id, name);
   if (!plan.sidecar) return result;
   result.cameraFromWorld = plan.sidecar->camera.cameraFromWorld;
   result.clipFromCamera = plan.sidecar->camera.clipFromCamera;
@@ -114,6 +156,21 @@ PreviousPlaces previousPlaces(const MotionFrame& now, const MotionFrame& before)
       in.motionY = motionY;
     }
   }
+  std::set<uint32_t> atRest = idsAtRest(before);
+  const std::set<uint32_t> restNow = idsAtRest(now);
+  std::erase_if(atRest, [&](uint32_t id) { return restNow.count(id) == 0; });
+  if (atRest.empty()) return findPreviousPlaces(in);
+  // Without matrices 0 stands for all else: nothing is hidden there.
+  const Vec3View none;
+  const Vec3Plane position =
+      withRest(now.ids, described ? now.position.view() : none, now.rest, atRest);
+  const Vec3Plane placesNow =
+      withRest(now.ids, described ? expected.view() : none, now.rest, atRest);
+  const Vec3Plane placesBefore =
+      withRest(before.ids, described ? before.position.view() : none, before.rest, atRest);
+  in.position = position;
+  in.expected = placesNow;
+  in.previousPosition = placesBefore;
   return findPreviousPlaces(in);
 }
 

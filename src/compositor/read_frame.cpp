@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 #include "base/error.h"
 #include "compositor/casting_scene.h"
+#include "compositor/rest_pass.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
@@ -91,21 +91,6 @@ void clearOutside(const FramePlan& plan, FramePlanes& planes) {
       for (int x = 0; x < planes.width; ++x)
         if (x < left || y < top || x >= left + own.width || y >= top + own.height)
           planes.objectId(x, y) = 0;
-  });
-}
-
-/// Nothing is held where a rest pass says nothing: not finite, no alpha, or 0, as renderers leave
-/// it for what has no such attribute.
-void markWithoutRest(View<const float> alpha, FramePlanes& planes) {
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x) {
-        const V3f p = planes.rest.view()(x, y);
-        const float sum = p.x + p.y + p.z;
-        const bool held = sum - sum == 0.0f && p != V3f(0.0f);
-        if (!held || (!alpha.empty() && !(alpha(x, y) > 0.0f)))
-          planes.rest.x(x, y) = std::numeric_limits<float>::quiet_NaN();
-      }
   });
 }
 
@@ -202,7 +187,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   };
   if (std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene))
     planes.casting = std::make_shared<const CastingScene>(readCastingScene(plan));
-  if (plan.rest) markWithoutRest(restAlpha, planes);
+  if (plan.rest) markWithoutRest(restAlpha, planes.rest);
   convertToWorld(plan.spaces, plan.image, planes.position, planes.normal);
   clearOutside(plan, planes);
   planes.badBeauty = clearNonFiniteColour(planes.beauty, planes.alpha.view());

@@ -95,16 +95,19 @@ bool StrokeGrounds::choose(size_t number, uint32_t object, BrushParams& params) 
   return true;
 }
 
-void StrokeGrounds::lay(size_t number, const BrushSubject& subject, const BrushAnchor& anchor) {
+void StrokeGrounds::lay(size_t number, const BrushSubject& subject, BrushAnchor& anchor) {
   Surface& surface = surfaces_[number - 1];
   surface.placeFromWorld = alongAxes(anchor.object);
   if (surface.ground == Ground::rest && !plan_.restInWorld)
     surface.placeFromRest =
         withoutMove(withoutMove(surface.placeFromWorld) * withoutMove(subject.worldFromObject));
   if (!(surface.uvSize > 0.0f)) surface.uvSize = longestSide(subject);
-  // Far beyond any period, so that no octave of the strokes repeats from instance to instance.
-  constexpr float sizes = 16;
-  if (surface.shift > 0.0f) surface.shift = sizes * longestSide(subject);
+  anchor.placesTurned = surface.ground == Ground::uv || plan_.restInWorld;
+  if (!(surface.shift > 0.0f)) return;
+  // The golden section beyond whole periods, so that steps fall evenly over the strokes.
+  const float period = 2.0f * pi * anchor.mappingDistance;
+  surface.shift = period * (std::ceil(3.0f * longestSide(subject) / period) + 0.618034f);
+  anchor.instanceStep = surface.shift;
 }
 
 V3f StrokeGrounds::placeAt(const Surface& surface, const FramePlanes& planes, int x, int y) const {
@@ -118,9 +121,9 @@ V3f StrokeGrounds::placeAt(const Surface& surface, const FramePlanes& planes, in
   if (surface.shift > 0.0f && std::isfinite(planes.instanceRandom(x, y))) {
     const float random = planes.instanceRandom(x, y);
     for (int k = 0; k < 3; ++k) {
-      constexpr float spread[3] = {1, 61, 3721};
+      constexpr float spread[3] = {1, 61, 3721}, most = 16;
       const float part = random * spread[k];
-      place[k] += surface.shift * (part - std::floor(part));
+      place[k] += surface.shift * std::floor(most * (part - std::floor(part)));
     }
   }
   return place;

@@ -28,8 +28,9 @@ class StrokeGrounds {
   /// Takes what turns a surface's passes into places: rest positions go through the object's matrix
   /// of this frame without its turn and move, so they have its size in the world; those in world
   /// space are taken as they are; UVs are sized by brush.uv_size. Instances of one object are
-  /// shifted against each other by their random numbers.
-  void lay(size_t number, const BrushSubject& subject, const BrushAnchor& anchor);
+  /// shifted against each other by their random numbers, in whole steps. The anchor
+  /// learns of the steps, and of places that do not lie along its axes.
+  void lay(size_t number, const BrushSubject& subject, BrushAnchor& anchor);
 
   /// The places of all surfaces; empty where none lies at rest.
   Vec3Plane places(const FramePlanes& planes, View<const uint16_t> index) const;
@@ -44,7 +45,7 @@ class StrokeGrounds {
     BrushParams::Ground ground = BrushParams::Ground::object;
     Transform placeFromRest, placeFromWorld;
     float uvSize = 0;
-    float shift = 0;  ///< world units over which instances are shifted; 0: not at all
+    float shift = 0;  ///< world units, of the steps by which instances are shifted; 0: none
   };
 
   V3f placeAt(const Surface& surface, const FramePlanes& planes, int x, int y) const;

@@ -1,7 +1,11 @@
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/printed_json.h"
+#include "base/temp_file.h"
 #include "picture/draw_plot.h"
+#include "picture/png_file.h"
 #include "sequence/check_sequence.h"
 
 namespace kagefude {
@@ -14,11 +18,27 @@ nlohmann::ordered_json frameJson(const CheckedFrame& f) {
           {"excess", f.excess()}, {"contrast", f.contrast}, {"grain", f.grain}};
 }
 
+nlohmann::ordered_json objectJson(const ObjectMoves& o) {
+  return {{"name", o.name},
+          {"pixels", o.pixels},
+          {"change", o.change},
+          {"ratio", o.ratio},
+          {"worst_frame", o.worstFrame},
+          {"worst_ratio", o.worst},
+          {"worst_pixel", {o.worstX, o.worstY}}};
+}
+
+uint16_t sample(float value) {
+  return static_cast<uint16_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+}
+
 }  // namespace
 
 std::string checkJson(const CheckResult& r) {
   nlohmann::ordered_json frames = nlohmann::ordered_json::array();
   for (const CheckedFrame& frame : r.frames) frames.push_back(frameJson(frame));
+  nlohmann::ordered_json objects = nlohmann::ordered_json::array();
+  for (const ObjectMoves& object : r.objects) objects.push_back(objectJson(object));
   nlohmann::ordered_json breaks = nlohmann::ordered_json::array();
   for (const ShotBreak& found : r.breaks)
     breaks.push_back({{"frames", found.frames}, {"says", found.sentence()}});
@@ -33,9 +53,24 @@ std::string checkJson(const CheckResult& r) {
       {"strokes",
        {{"contrast", {{"median", r.contrast}, {"low", r.contrastLow}, {"high", r.contrastHigh}}},
         {"grain", {{"median", r.grain}, {"low", r.grainLow}, {"high", r.grainHigh}}}}},
+      {"objects", objects},
       {"breaks", breaks},
       {"frames", frames}};
   return printedJson(json);
+}
+
+void drawMoves(const CheckResult& result, const std::filesystem::path& path) {
+  constexpr float unrelated = 1.41421356f;
+  constexpr uint16_t notCompared = 64;
+  PngPicture picture{result.moves.width(), result.moves.height(), 3, 8, {}};
+  for (size_t i = 0; i < result.moves.view().pixels(); ++i) {
+    const float move = 3 * result.moves.row(0)[i] / unrelated;
+    for (int channel = 0; channel < 3; ++channel)
+      picture.samples.push_back(std::isnan(move) ? notCompared
+                                                 : sample(move - static_cast<float>(channel)));
+  }
+  const std::vector<unsigned char> bytes = encodePng(picture, {});
+  writeFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 void plotCheck(const CheckResult& result, const std::filesystem::path& path) {

@@ -114,7 +114,8 @@ Vec3Plane strokesOf(const Finished& frame) {
   return strokes;
 }
 
-CheckedFrame compareFrames(int frame, const Finished& now, const Finished* before) {
+CheckedFrame compareFrames(int frame, const Finished& now, const Finished* before,
+                           StrokeMoves& moves) {
   CheckedFrame checked;
   checked.frame = frame;
   checked.picture = checked.plain = checked.tone = checked.strokes = unknown;
@@ -125,7 +126,12 @@ CheckedFrame compareFrames(int frame, const Finished& now, const Finished* befor
   const PreviousPlaces places = previousPlaces(now.motion, before->motion);
   checked.picture = errorOf(now.picture, before->picture, places);
   checked.plain = errorOf(now.plain, before->plain, places);
-  checked.strokes = errorOf(strokesOf(now), strokesOf(*before), places);
+  const Vec3Plane own = strokesOf(now), ownBefore = strokesOf(*before);
+  const View<const float> current[] = {own.x, own.y, own.z};
+  const View<const float> previous[] = {ownBefore.x, ownBefore.y, ownBefore.z};
+  const WarpError change = warpError(current, previous, places);
+  if (change.pixels > 0) checked.strokes = change.rmse;
+  moves.add(frame, now.motion.ids, own, change);
   const View<const float> tone[] = {now.tone}, toneBefore[] = {before->tone};
   const WarpError error = warpError(tone, toneBefore, places);
   if (error.pixels > 0) checked.tone = error.rmse;
@@ -194,17 +200,22 @@ CheckResult checkSequence(const CheckRequest& request) {
     colours.add(finished.motion.ids, finished.tone, finished.picture);
   }
   CheckResult result;
+  StrokeMoves moves;
+  std::map<uint32_t, std::string> names;
   std::optional<Finished> before;
   for (const int frame : frames) {
     Finished now = readFinished(request, frame);
     now.plain = request.unstyled ? readUnstyled(*request.unstyled, frame, now)
                                  : colours.plain(now.motion.ids, now.tone);
-    result.frames.push_back(compareFrames(frame, now, before ? &*before : nullptr));
+    result.frames.push_back(compareFrames(frame, now, before ? &*before : nullptr, moves));
+    names.insert(now.motion.names.begin(), now.motion.names.end());
     if (before && before->motion.sidecar && now.motion.sidecar && !request.look.scene.sizes())
       noteShotBreaks(*before->motion.sidecar, *now.motion.sidecar, frame, result.breaks);
     before = std::move(now);
   }
   summarise(result);
+  result.objects = moves.objects(names);
+  result.moves = moves.picture();
   return result;
 }
 

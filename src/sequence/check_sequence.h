@@ -7,6 +7,7 @@
 
 #include "base/frame_pattern.h"
 #include "look/look.h"
+#include "passes/measure/stroke_moves.h"
 #include "sequence/shot_breaks.h"
 
 namespace kagefude {
@@ -46,7 +47,9 @@ struct CheckResult {
   double contrast = 0;                       ///< median over the frames
   double contrastLow = 0, contrastHigh = 0;  ///< least and most, against the median
   double grain = 0, grainLow = 0, grainHigh = 0;
-  std::vector<ShotBreak> breaks;  ///< frames that the exporter described by what they show
+  std::vector<ObjectMoves> objects;  ///< the strokes of each, the restless ones first
+  Floats moves;                      ///< where strokes move, see StrokeMoves::picture
+  std::vector<ShotBreak> breaks;     ///< frames that the exporter described by what they show
 };
 
 /// Measures how a finished sequence holds still: see CheckedFrame. Frames must follow each
@@ -55,8 +58,11 @@ struct CheckResult {
 /// the other, InputError when a frame, a layer or a pass is missing.
 CheckResult checkSequence(const CheckRequest& request);
 
-/// The numbers as JSON, and as curves over the frames.
+/// The numbers as JSON, as curves over the frames, and as a PNG of where strokes move: black where
+/// they hold still, over red to white where they are unrelated to those before; grey where
+/// nothing was compared.
 std::string checkJson(const CheckResult& result);
+void drawMoves(const CheckResult& result, const std::filesystem::path& path);
 void plotCheck(const CheckResult& result, const std::filesystem::path& path);
 
 }  // namespace kagefude

@@ -34,6 +34,16 @@ check "brightening by 0.1 is not measured as such" within "$(value warp_error.pi
 check "even steps are no jump" within "$(value jump.largest_to_median <<<"$bright")" 1 1e-4
 check "the written JSON is not the printed one" diff -q <(echo "$bright") "$work/check.json"
 check "the plot is no picture" grep -qE '960 +x +780' <(iinfo "$work/plot.png")
+fields=$(python3 -c 'import json, sys
+first = json.load(sys.stdin)["objects"][0]
+print(first["name"] != "", first["pixels"] > 0, first["ratio"] > 0, first["worst_frame"] in (2, 3))' <<<"$bright")
+check "objects are not measured: $fields" test "$fields" = "True True True True"
+check "an object's worst frame is not printed" grep -qE 'strokes of [^:]+: change 0.*; worst frame [23] \([0-9.]+\), there most at pixel [0-9]+,[0-9]+' \
+  <("$kagefude" check "$work/bright/shot.####.exr" --aovs "$work/in/shot.####.exr" --moves "$work/moves.png")
+check "the picture of moves is no picture of the frame's size" \
+  test "$(iinfo "$work/moves.png" | grep -oE '[0-9]+ +x +[0-9]+')" = "$(iinfo "$work/in/shot.0001.exr" | grep -oE '[0-9]+ +x +[0-9]+')"
+check "moves go to another kind of file" grep -q 'moves.*\.png' \
+  <("$kagefude" check "$work/bright/shot.####.exr" --aovs "$work/in/shot.####.exr" --moves "$work/moves.jpg" 2>&1)
 same=$(check_json "$work/bright/shot.####.exr" --unstyled "$work/bright/shot.####.exr")
 check "against itself there is excess" within "$(value warp_error.excess <<<"$same")" 0 1e-9
 

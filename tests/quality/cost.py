@@ -133,6 +133,8 @@ def main():
     parser.add_argument("--runs", default=2, type=int)
     parser.add_argument("--masks-against", type=os.path.abspath)
     options = parser.parse_args()
+    if len(options.samples) < 2:
+        parser.error("--samples wants two or more, to tell the cost of an error between them")
     global KAGEFUDE
     KAGEFUDE = os.path.abspath(KAGEFUDE)
     said = subprocess.run([*BLENDER, "--version"], capture_output=True, text=True, check=True).stdout

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds a walking character, or its rigid copy: the same pose, moved as the walker moves.
+"""Builds a walking character, its rigid copy (the same pose, moved as the walker moves), or three
+stones that move alike: one real object and two instances of a collection.
 
     blender -b --factory-startup --python-exit-code 3 -P tests/quality/skin_scenes.py -- \
-        walk|rigid OUT.blend [MODEL.glb]
+        walk|rigid|instances OUT.blend [MODEL.glb]
 
 Without a model the character is built here: one skinned mesh of a body, four legs, a neck and a
 tail. A model (../shared/data/characters/fox.glb) is imported, with the action that has Walk in its
@@ -92,24 +93,63 @@ def imported(path):
     return mesh, root, bones
 
 
-def main():
-    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
-    if len(words) not in (2, 3) or words[0] not in ("walk", "rigid"):
-        print("Error: give walk or rigid, and a file to write, after --", file=sys.stderr, flush=True)
-        raise SystemExit(2)
-    scene = tools.empty_scene(640, 400, 4, "Skin")
-    scene.frame_start, scene.frame_end = 1, FRAMES
-    if len(words) == 3:
-        _, mover, bones = imported(words[2])
+def stone(name, surface):
+    outline = [(0.0, -0.5), (0.35, -0.42), (0.5, -0.1), (0.42, 0.25), (0.2, 0.5), (0.0, 0.55)]
+    return tools.revolve(name, tools.smooth_curve(outline, 8), surface, 48)
+
+
+def instances():
+    """Three things that turn and rise alike, side by side along y; returns them."""
+    surface = tools.material("Stone", (0.4, 0.4, 0.4))
+    real, original = stone("Real", surface), stone("Original", surface)
+    collection = bpy.data.collections.new("Stones")
+    bpy.context.scene.collection.objects.unlink(original)
+    collection.objects.link(original)
+    things = [real]
+    for name in ("First", "Second"):
+        empty = bpy.data.objects.new(name, None)
+        empty.instance_type, empty.instance_collection = 'COLLECTION', collection
+        bpy.context.scene.collection.objects.link(empty)
+        things.append(empty)
+    for lane, thing in zip((-1.5, 0.0, 1.5), things):
+        for frame, share in ((1, 0.0), (FRAMES, 1.0)):
+            thing.location = (0, lane, 0.5 + 0.8 * share)
+            thing.rotation_euler = (0.4, 0.2, 0.3 + 1.2 * share)
+            thing.keyframe_insert("location", frame=frame)
+            thing.keyframe_insert("rotation_euler", frame=frame)
+    return things
+
+
+def walker(path):
+    if path:
+        _, mover, bones = imported(path)
     else:
         _, bones = built()
         mover = bones
     for frame, place in ((1, 0.36), (FRAMES, -0.36)):
         mover.location = (0, place, 0)
         mover.keyframe_insert("location", frame=frame)
-    for curve in mover.animation_data.action.fcurves:
-        for point in curve.keyframe_points:
-            point.interpolation = 'LINEAR'
+    return mover, bones
+
+
+def main():
+    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    if len(words) not in (2, 3) or words[0] not in ("walk", "rigid", "instances"):
+        print("Error: give walk, rigid or instances, and a file to write, after --",
+              file=sys.stderr, flush=True)
+        raise SystemExit(2)
+    scene = tools.empty_scene(640, 400, 4, "Skin")
+    scene.frame_start, scene.frame_end = 1, FRAMES
+    bones = mover = None
+    if words[0] == "instances":
+        movers = instances()
+    else:
+        mover, bones = walker(words[2] if len(words) == 3 else "")
+        movers = [mover]
+    for thing in movers:
+        for curve in thing.animation_data.action.fcurves:
+            for point in curve.keyframe_points:
+                point.interpolation = 'LINEAR'
     scene.frame_set(POSE)
     if words[0] == "rigid":
         freeze(bones, mover)

@@ -19,6 +19,10 @@ struct WorldSpace {
         across{block.across.x, block.across.y, block.across.z},
         down{block.down.x, block.down.y, block.down.z},
         axis{object.x, object.y, object.z} {}
+  /// The way to pixel i from a centre.
+  __attribute__((always_inline)) inline V3f from(const StrokeCentre& centre, int i) const {
+    return {x[i] - centre.position.x, y[i] - centre.position.y, z[i] - centre.position.z};
+  }
   /// Part of a direction along axis k.
   __attribute__((always_inline)) inline float along(int k, float dx, float dy, float dz) const {
     return dx * axis[k].x + dy * axis[k].y + dz * axis[k].z;
@@ -36,17 +40,22 @@ struct RestSpace {
         z(block.place[2]),
         across{block.placeAcross[0], block.placeAcross[1], block.placeAcross[2]},
         down{block.placeDown[0], block.placeDown[1], block.placeDown[2]} {}
+  __attribute__((always_inline)) inline V3f from(const StrokeCentre& centre, int i) const {
+    const float step = centre.step, steps = centre.steps;
+    return {fromNearest(x[i] - centre.position.x, step, steps),
+            fromNearest(y[i] - centre.position.y, step, steps),
+            fromNearest(z[i] - centre.position.z, step, steps)};
+  }
   __attribute__((always_inline)) inline float along(int k, float dx, float dy, float dz) const {
     return k == 0 ? dx : k == 1 ? dy : dz;
   }
 };
 
-/// Part of the direction round the axis v through g that lies in a surface at (x, y, z) with the
-/// unit normal n (zero: all of it).
-__attribute__((always_inline)) inline V3f directionRound(V3f v, V3f g, float x, float y, float z,
-                                                         float nx, float ny, float nz) {
-  const float qx = x - g.x, qy = y - g.y, qz = z - g.z;
-  const float rx = v.y * qz - v.z * qy, ry = v.z * qx - v.x * qz, rz = v.x * qy - v.y * qx;
+/// Part of the direction round the axis v that lies in a surface at q from it with the unit normal
+/// n (zero: all of it).
+__attribute__((always_inline)) inline V3f directionRound(V3f v, V3f q, float nx, float ny,
+                                                         float nz) {
+  const float rx = v.y * q.z - v.z * q.y, ry = v.z * q.x - v.x * q.z, rz = v.x * q.y - v.y * q.x;
   const float off = nx * rx + ny * ry + nz * rz;
   return {rx - nx * off, ry - ny * off, rz - nz * off};
 }

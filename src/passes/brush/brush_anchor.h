@@ -29,8 +29,14 @@ struct BrushAnchor {
   };
   std::vector<Point> points;  ///< at least one, by rising `along`
   ObjectAxes object;
-  V3f longSide{1, 0, 0};      ///< world, unit
-  bool atRest = false;        ///< strokes lie on the places at rest that applyBrush is given
+  V3f longSide{1, 0, 0};  ///< world, unit
+  bool atRest = false;    ///< strokes lie on the places at rest that applyBrush is given
+  /// The places at rest do not lie along the object's axes (UVs, a rest in world space): strokes
+  /// run as they would on the surface that is seen, carried to the places pixel by pixel.
+  bool placesTurned = false;
+  /// Instances' places lie whole numbers of this apart along each axis, so that they do not repeat
+  /// each other; more than twice as far as any reaches from its reference point. 0: no instances.
+  float instanceStep = 0;
   float mappingDistance = 1;  ///< Md, of the finer strokes
   float coarser = 0;          ///< share of the same strokes at 2 Md, 0..1
   float shift = 0;            ///< added to u at Md, so that octaves do not repeat each other

@@ -118,13 +118,13 @@ template <class Space>
 __attribute__((always_inline)) inline void weighAlong(const StrokeCentre& centre,
                                                       const Space& space, float near, int count,
                                                       BrushBlock& block) {
-  const V3f v = centre.axis, g = centre.position;
+  const V3f v = centre.axis;
   const float *__restrict nx = block.normalX, *__restrict ny = block.normalY,
                           *__restrict nz = block.normalZ;
   float* __restrict w0 = block.weight[0], * __restrict w1 = block.weight[1], * __restrict w2 = block.weight[2];
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
-    const V3f t = directionRound(v, g, space.x[i], space.y[i], space.z[i], nx[i], ny[i], nz[i]);
+    const V3f t = directionRound(v, space.from(centre, i), nx[i], ny[i], nz[i]);
     const float alongA = space.along(0, t.x, t.y, t.z);
     const float alongB = space.along(1, t.x, t.y, t.z);
     const float alongC = space.along(2, t.x, t.y, t.z);

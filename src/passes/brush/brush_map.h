@@ -61,9 +61,11 @@ BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> ton
 /// t's squared parts choose the axes, n's the plane. A is the local map of the pixel's neighbours
 /// (restAxes), which carries the changes of position to those of the place and the normal of the
 /// one to that of the other. V turns with the object's matrix and not with A: A differs from
-/// triangle to triangle and from frame to frame, and an axis carried by it flickers. With `stretch
-/// = world` held strokes change their octave by the stretch of that map (strokeOctave). A thing
-/// that does not deform looks as it does without, within roundings of its positions' changes.
+/// triangle to triangle and from frame to frame, and an axis carried by it flickers. With instances
+/// q - g is what lies beyond whole steps of the anchor. Over places that are turned (placesTurned)
+/// t is A times the direction that is seen, and it is painted a pixel at a time. With `stretch =
+/// world` held strokes change their octave by the stretch of that map (strokeOctave). A thing that
+/// does not deform looks as it does without, within roundings of its positions' changes.
 void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
                 View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
                 std::span<const Strip> strips, const BrushParams& params, BrushResult& result,

@@ -55,8 +55,22 @@ void placeInObject(const BrushAnchor& anchor, BrushPixel& pixel) {
   pixel.along = placeAlong(anchor, pixel.position);
 }
 
-// The same of places at rest; position, normal and changes are along the object's axes from here
-// on. Where the map to rest is not known the normal turns as the object's axes do.
+// From here on position, normal and changes are along the object's axes.
+void moveAlongAxes(const V3f& place, const V3f& dx, const V3f& dy, BrushPixel& pixel) {
+  V3f normal;
+  for (int k = 0; k < 3; ++k) {
+    normal[k] = pixel.normal.dot(pixel.axes[k]);
+    pixel.axes[k] = V3f(k == 0 ? 1.0f : 0.0f, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f);
+  }
+  const float length = std::sqrt(normal.dot(normal));
+  pixel.normal = length > 0.0f ? normal / length : V3f(0.0f);
+  pixel.position = place;
+  pixel.dx = dx;
+  pixel.dy = dy;
+  pixel.atRest = true;
+}
+
+// The same of places at rest. Where the map to rest is not known the object's axes stand.
 void placeAtRest(const BrushAnchor& anchor, const V3f& place, const V3f& dx, const V3f& dy,
                  bool keepsSize, BrushPixel& pixel) {
   const V3f& a = pixel.dx;
@@ -66,23 +80,15 @@ void placeAtRest(const BrushAnchor& anchor, const V3f& place, const V3f& dx, con
   float y[3] = {anchor.object.x.y, anchor.object.y.y, anchor.object.z.y};
   float z[3] = {anchor.object.x.z, anchor.object.y.z, anchor.object.z.z};
   restAxes(change, x, y, z);
-  const V3f n = pixel.normal;
-  const V3f normal =
-      V3f(x[0], x[1], x[2]) * n.x + V3f(y[0], y[1], y[2]) * n.y + V3f(z[0], z[1], z[2]) * n.z;
-  const float length = std::sqrt(normal.dot(normal));
-  pixel.normal = length > 0.0f ? normal / length : V3f(0.0f);
   if (keepsSize) pixel.octave = strokeOctave(anchor, restStretch(change));
+  pixel.along = alongAxes(anchor.object, anchor.longSide).dot(place);
   for (int k = 0; k < 3; ++k) {
-    pixel.axes[k] = V3f(k == 0 ? 1.0f : 0.0f, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f);
+    pixel.axes[k] = V3f(x[k], y[k], z[k]);
     pixel.place[k] = place[k];
     pixel.placeDx[k] = dx[k];
     pixel.placeDy[k] = dy[k];
   }
-  pixel.position = place;
-  pixel.dx = dx;
-  pixel.dy = dy;
-  pixel.atRest = true;
-  pixel.along = alongAxes(anchor.object, anchor.longSide).dot(place);
+  if (!anchor.placesTurned) moveAlongAxes(place, dx, dy, pixel);
 }
 
 // Polar and seed strokes see the surface as it rests.

@@ -139,7 +139,8 @@ bool canPaintHeldRow(const BrushInput& in, const BrushAnchor& anchor) {
   return in.params.mapping == BrushParams::Mapping::held &&
          in.params.grain == BrushParams::Grain::tone &&
          in.params.filter == BrushParams::Filter::anisotropic && anchor.points.size() == 1 &&
-         !keepsSizeInWorld(in, anchor) && 12 * in.params.maxProbes <= SampleList::most;
+         !keepsSizeInWorld(in, anchor) && !(liesAtRest(in, anchor) && anchor.placesTurned) &&
+         12 * in.params.maxProbes <= SampleList::most;
 }
 
 void paintHeldRow(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,

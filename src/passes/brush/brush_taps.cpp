@@ -37,7 +37,10 @@ void addRing(const BrushAnchor::Point& point, float mappingDistance, float shift
 
 // Part of the direction round the axis that lies in the surface.
 V3f strokeDirection(const StrokeCentre& centre, const BrushPixel& pixel) {
-  const V3f round = centre.axis.cross(pixel.position - centre.position);
+  V3f way = pixel.position - centre.position;
+  if (pixel.atRest)
+    for (int k = 0; k < 3; ++k) way[k] = fromNearest(way[k], centre.step, centre.steps);
+  const V3f round = centre.axis.cross(way);
   return round - pixel.normal * pixel.normal.dot(round);
 }
 

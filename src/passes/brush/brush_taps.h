@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "passes/brush/brush_anchor.h"
 #include "passes/brush/brush_angle.h"
 #include "passes/brush/brush_repeat.h"
@@ -76,17 +78,26 @@ inline V3f alongAxes(const ObjectAxes& object, const V3f& d) {
   return {d.dot(object.x), d.dot(object.y), d.dot(object.z)};
 }
 
-/// What strokes run round: the axis from the light, and a point on it.
+/// What strokes run round: the axis from the light, and a point on it; over instances the same at
+/// every `step` along each axis, `steps` to a unit (0 and 0: once).
 struct StrokeCentre {
   V3f axis, position;
+  float step = 0, steps = 0;
 };
+
+/// Part of a way from a centre that is left beyond its nearest repeat.
+__attribute__((always_inline)) inline float fromNearest(float way, float step, float steps) {
+  return way - step * std::floor(way * steps + 0.5f);
+}
 
 /// Of a reference point in the world; at rest along the object's axes, from its origin.
 inline StrokeCentre strokeCentre(const BrushAnchor& anchor, const BrushAnchor::Point& point,
                                  bool atRest) {
   if (!atRest) return {point.frame.axis, point.position};
+  const float step = anchor.instanceStep;
   return {alongAxes(anchor.object, point.frame.axis),
-          alongAxes(anchor.object, point.position - anchor.object.origin)};
+          alongAxes(anchor.object, point.position - anchor.object.origin), step,
+          step > 0.0f ? 1.0f / step : 0.0f};
 }
 
 /// Smooth weights at a place on the anchor's long side, over `blend` of each gap between two

@@ -21,13 +21,13 @@ __attribute__((always_inline)) inline void addPartsAlong(const StrokeCentre& cen
                                                          const Space& space,
                                                          const float* __restrict share, int count,
                                                          const BrushBlock& block, Parts& parts) {
-  const V3f v = centre.axis, g = centre.position;
+  const V3f v = centre.axis;
   const float *__restrict nx = block.normalX, *__restrict ny = block.normalY,
                           *__restrict nz = block.normalZ;
   float* __restrict pa = parts.along[0], * __restrict pb = parts.along[1], * __restrict pc = parts.along[2];
 #pragma GCC ivdep
   for (int i = 0; i < count; ++i) {
-    const V3f t = directionRound(v, g, space.x[i], space.y[i], space.z[i], nx[i], ny[i], nz[i]);
+    const V3f t = directionRound(v, space.from(centre, i), nx[i], ny[i], nz[i]);
     const float alongA = space.along(0, t.x, t.y, t.z);
     const float alongB = space.along(1, t.x, t.y, t.z);
     const float alongC = space.along(2, t.x, t.y, t.z);

@@ -96,7 +96,8 @@ bool allPresent(const BrushBlock& block, int count) {
 bool canPaintObjectRow(const BrushInput& in, const BrushAnchor& anchor) {
   return in.params.mapping == BrushParams::Mapping::held &&
          in.params.grain == BrushParams::Grain::object &&
-         in.params.filter == BrushParams::Filter::anisotropic && !keepsSizeInWorld(in, anchor);
+         in.params.filter == BrushParams::Filter::anisotropic && !keepsSizeInWorld(in, anchor) &&
+         !(liesAtRest(in, anchor) && anchor.placesTurned);
 }
 
 void paintObjectRow(const BrushInput& in, const BrushAnchor& anchor, int first, int end, int y,

@@ -135,6 +135,49 @@ TEST(RestDirection, IsThatOfARigidThingWithTheCarriedNormals) {
     }
 }
 
+// Instances far off by whole steps run as the first does.
+TEST(RestDirection, IsTheSameOnInstances) {
+  const auto strips = oneStrip(test::noiseStrip(64, 64));
+  BrushAnchor anchor = slantedAnchor();
+  const float period = 2 * pi * anchor.mappingDistance;
+  anchor.instanceStep = 4 * period;  // whole periods: the same strokes
+  RestScene scene = sheet(96, 1.0f, bent), other = sheet(96, 1.0f, bent);
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x)
+      other.rest.set(x, y, scene.rest.view()(x, y) + V3f(2, 9, 13) * anchor.instanceStep);
+  for (const auto grain : everyGrain) {
+    BrushParams params;
+    params.grain = grain;
+    const BrushResult a = scene.paint(std::span(&anchor, 1), strips, params);
+    const BrushResult b = other.paint(std::span(&anchor, 1), strips, params);
+    EXPECT_LT(meanDifference(a.r, b.r), 2e-3);
+  }
+}
+
+// UVs need not lie as the object does: strokes run on the surface as they do without them.
+TEST(RestDirection, OfTurnedPlacesIsThatOfTheSurface) {
+  const auto strips = oneStrip(test::noiseStrip(64, 64));
+  BrushAnchor anchor = slantedAnchor();
+  anchor.object = {};
+  RestScene scene = sheet(96, 1.0f, [](const V3f& p) { return p; });
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x) {
+      const V3f p = scene.rest.view()(x, y);
+      scene.rest.set(x, y, V3f(-p.y, p.x, p.z));
+    }
+  BrushAnchor turned = anchor;
+  turned.atRest = false;
+  turned.object = {{0, 0, 0}, {0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+  anchor.placesTurned = true;
+  for (const auto grain : everyGrain) {
+    BrushParams params;
+    params.grain = grain;
+    const BrushResult a = scene.paint(std::span(&anchor, 1), strips, params);
+    const BrushResult b = scene.paint(std::span(&turned, 1), strips, params);
+    EXPECT_LT(largestDifference(a.r, b.r), 1e-3);
+  }
+}
+
 // Without normals the surface faces where its places do.
 TEST(RestDirection, WithoutNormalsGoesByThePlaces) {
   const auto strips = oneStrip(test::noiseStrip(64, 64));
