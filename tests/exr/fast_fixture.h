@@ -8,6 +8,8 @@
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,11 @@ class ExrFastTest : public ::testing::Test {
  private:
   std::filesystem::path folder_;
 };
+
+inline std::vector<char> contentOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 /// One channel of a test file: its samples as they are in the file, row by row.
 struct TestChannel {

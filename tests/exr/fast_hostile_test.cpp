@@ -44,11 +44,6 @@ void overwrite(const std::string& path, const std::vector<char>& bytes) {
       .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
-std::vector<char> contentOf(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST_F(ExrFastHostile, FlippedBytesAndCutFilesNeverCrash) {
   std::mt19937 random(2024);
   for (const Imf::Compression codec :

@@ -47,11 +47,6 @@ ExrImage imageOf(const TestPart& part) {
   return image;
 }
 
-std::string contentOf(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// The samples of a channel as OpenEXR's C++ library reads them.
 std::vector<uint8_t> readWithOpenExr(const std::string& path, const TestPart& part,
                                      const TestChannel& channel) {
