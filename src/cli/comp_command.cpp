@@ -252,7 +252,7 @@ void addCompCommand(CLI::App& app, const std::string& commandLine, Console& cons
   command->add_option("--set", options->overrides, "section.key=value, over the look's own");
   command->add_option("--preview", options->preview, "folder for display-ready pictures");
   command->add_option("--preview-format", options->previewFormat,
-                      "suffix of what goes there (png): " + listSuffixes());
+                      "suffix of what goes there, any that -o takes but .exr (png)");
   command->add_option("--report", options->report,
                       "folder for a page (index.html) about the run; a chunk makes "
                       "chunk-i-of-n in it");

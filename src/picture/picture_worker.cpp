@@ -82,12 +82,12 @@ std::string whyNotStarted(int status) {
                      WEXITSTATUS(status));
 }
 
-/// Idle workers, and how many there are in all.
+/// Idle workers, how many there are in all, and how many of those load their libraries.
 struct Pool {
   std::mutex mutex;
   std::condition_variable freed;
   std::vector<std::unique_ptr<PictureWorker>> idle;
-  size_t all = 0;
+  size_t all = 0, starting = 0;
 };
 
 Pool& pool() {
@@ -147,25 +147,36 @@ nlohmann::json PictureWorker::ask(nlohmann::json request, const WorkerBounds& bo
   return {{"error", howItEnded(end(), request.at("do") == "write")}};
 }
 
+// Two that start at once take twice as long: nobody starts one beside another's start, nor before
+// those at work had the time of a start to come free.
 WorkerLease::WorkerLease() {
   constexpr std::chrono::milliseconds aStart(300);
   std::unique_lock lock(pool().mutex);
-  if (pool().all > 0)
-    pool().freed.wait_for(lock, aStart, [] { return !pool().idle.empty() || pool().all == 0; });
+  for (bool waited = false; pool().idle.empty() && (!waited || pool().starting > 0);) {
+    pool().freed.wait(lock, [] { return !pool().idle.empty() || pool().starting == 0; });
+    waited = waited || pool().all == 0 ||
+             !pool().freed.wait_for(lock, aStart, [] { return !pool().idle.empty(); });
+  }
   if (!pool().idle.empty()) {
     worker_ = std::move(pool().idle.back());
     pool().idle.pop_back();
     return;
   }
   ++pool().all;
+  ++pool().starting;
   lock.unlock();
   try {
     worker_ = std::make_unique<PictureWorker>();
   } catch (...) {
     lock.lock();
     --pool().all;
+    --pool().starting;
+    pool().freed.notify_all();
     throw;
   }
+  lock.lock();
+  --pool().starting;
+  pool().freed.notify_all();
 }
 
 WorkerLease::~WorkerLease() {
