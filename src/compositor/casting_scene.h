@@ -19,6 +19,9 @@ struct CastingScene {
 
 struct FramePlan;
 
+/// The rays of the camera that sees a planned frame. Throws InputError without a sidecar.
+CameraRays raysOf(const FramePlan& plan);
+
 /// Reads the casters of a planned frame and builds what the methods need. Without casters only the
 /// rays are filled. Throws InputError.
 CastingScene readCastingScene(const FramePlan& plan);

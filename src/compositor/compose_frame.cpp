@@ -40,20 +40,6 @@ void multiplyAlbedo(const FramePlanes& planes, const StyledSurfaces& styled, Bru
   });
 }
 
-/// Associated "over": the strokes, and behind them the beauty.
-void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x) {
-        const float behind = 1.0f - brush.a(x, y);
-        brush.r(x, y) += behind * planes.beauty.x(x, y);
-        brush.g(x, y) += behind * planes.beauty.y(x, y);
-        brush.b(x, y) += behind * planes.beauty.z(x, y);
-        brush.a(x, y) += behind * (planes.alpha.empty() ? 1.0f : planes.alpha(x, y));
-      }
-  });
-}
-
 /// Associated "over": drawn lines over what is painted and what is not.
 void putLinesOver(const FramePlanes& planes, BrushResult& brush) {
   parallelRows(planes.height, [&](int first, int end) {
@@ -100,8 +86,9 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
     result.warnings.insert(result.warnings.end(), planes.casting->warnings.begin(),
                            planes.casting->warnings.end());
   noteBadPixels(planes, result.warnings);
+  Bytes joins;
   Labels surfaces =
-      labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces);
+      labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces, &joins);
   lap(clock, "surfaces");
   if (sink) showInputs(planes, surfaces, *sink);
   Floats tone = frameTone(look, plan, planes, surfaces, result, sink, clock);
@@ -119,12 +106,14 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
     sink->number("brush.repeat, within each ring", fractions(brush.repeat));
   }
   multiplyAlbedo(planes, styled, brush);
+  if (look.output.edges == Edges::coverage && !std::getenv("NOINNER"))
+    blendInside(plan, planes, styled, joins, brush);
   blendEdges(plan, planes, brush);
+  if (look.output.background == Background::beauty && !planes.beauty.empty())
+    putBeautyBehind(planes, brush);
   Floats outline = drawStyleOutlines(plan, planes, styled, asksFor(look, "outline"), brush);
   lap(clock, "edges and outlines");
   if (sink && !outline.empty()) sink->number("outline", outline);
-  if (look.output.background == Background::beauty && !planes.beauty.empty())
-    putBeautyBehind(planes, brush);
   if (!planes.linesAlpha.empty()) putLinesOver(planes, brush);
   result.colour.x = std::move(brush.r);
   result.colour.y = std::move(brush.g);

@@ -103,19 +103,26 @@ void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
   if (!doubt.sentence.empty()) planes.warnings.push_back(doubt.sentence);
 }
 
+void clearIds(const std::set<uint32_t>& unpainted, View<uint32_t> ids) {
+  parallelRows(ids.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < ids.width; ++x)
+        if (unpainted.count(ids(x, y))) ids(x, y) = 0;
+  });
+}
+
 /// Where an object is not painted, the beauty stands: cut, or with what lies behind it.
 void clearUnpainted(const FramePlan& plan, FramePlanes& planes) {
   if (!plan.sidecar) return;
-  std::set<uint32_t> unpainted;
+  std::set<uint32_t> unpainted, inCryptomatte;
   for (const SidecarObject& object : plan.sidecar->objects)
-    if (!object.painted)
+    if (!object.painted) {
       unpainted.insert(plan.idSource == IdSource::index ? object.index : object.cryptoId);
+      inCryptomatte.insert(object.cryptoId);
+    }
   if (unpainted.empty()) return;
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x)
-        if (unpainted.count(planes.objectId(x, y))) planes.objectId(x, y) = 0;
-  });
+  clearIds(unpainted, planes.objectId.view());
+  for (Labels& rank : planes.coverageIds) clearIds(inCryptomatte, rank.view());
 }
 
 }  // namespace
