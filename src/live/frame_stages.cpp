@@ -64,11 +64,9 @@ LightStagesMade FrameStages::composeLight(const Look& look, const FramePlan& pla
   if (isSmoothed(light)) {
     StageKey smooth = keyOf({made.shadow.version, frame.surfaces.version});
     smooth.add(smoothTable, &light.passes.smooth);
-    made.visibility =
-        stages.smoothed.at(run, "smoothing of " + light.name, std::move(smooth), [&] {
-          return smoothWithinSurfaces(made.shadow->visibility, *frame.surfaces,
-                                      light.passes.smooth);
-        });
+    made.visibility = stages.smoothed.at(run, "smoothing of " + light.name, std::move(smooth), [&] {
+      return smoothWithinSurfaces(made.shadow->visibility, *frame.surfaces, light.passes.smooth);
+    });
   } else {
     stages.smoothed = {};
   }
@@ -130,11 +128,11 @@ void FrameStages::paint(const Look& look, const Made<LiveStrips>& strips, const 
     return paintStyles(strips->set, *frame.planes, *frame.tone, styled, false);
   });
 
-  StageKey picture = keyOf({frame.strokes.version, frame.styles.version, frame.planes.version,
-                            frame.surfaces.version});
+  StageKey picture = keyOf(
+      {frame.strokes.version, frame.styles.version, frame.planes.version, frame.surfaces.version});
   picture.add(look.output.background).add(look.output.scale);
-  frame.picture = picture_.at(run, "picture", std::move(picture),
-                              [&] { return finish(look, plan, frame); });
+  frame.picture =
+      picture_.at(run, "picture", std::move(picture), [&] { return finish(look, plan, frame); });
 }
 
 /// Lights that take no part any more give their memory back.

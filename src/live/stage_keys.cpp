@@ -69,8 +69,10 @@ void addFile(StageKey& key, const std::filesystem::path& file) {
   const bool there = ::stat(file.c_str(), &status) == 0;
   key.add(file.native()).add(there);
   if (there)
-    key.add(status.st_mtim.tv_sec).add(status.st_mtim.tv_nsec).add(status.st_size).add(
-        status.st_ino);
+    key.add(status.st_mtim.tv_sec)
+        .add(status.st_mtim.tv_nsec)
+        .add(status.st_size)
+        .add(status.st_ino);
 }
 
 void addReading(StageKey& key, const Look& look, const FramePlan& plan) {
