@@ -35,6 +35,7 @@ LivePicture LiveFrame::compose(const Look& look, StripShelf& shelf, int size,
                                std::stop_token stop) {
   StageRun run{std::move(stop)};
   LivePicture picture;
+  picture.look = std::make_shared<const Look>(look);
   FramePlan plan = planFrame(look, path_, frame_, view_);
   StageKey reading;
   addReading(reading, look, plan);

@@ -19,6 +19,7 @@ class StripShelf {
 
 /// A picture with what it was made of: what the viewer shows and the probe reads.
 struct LivePicture {
+  std::shared_ptr<const Look> look;  ///< as it was asked for
   std::shared_ptr<const FramePlan> plan;
   StagedFrame stages;
   Made<LiveStrips> strips;
