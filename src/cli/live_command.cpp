@@ -11,8 +11,7 @@
 #include <ostream>
 
 #include "cli/commands.h"
-#include "live/http_server.h"
-#include "live/live_page.h"
+#include "live/live.h"
 #include "sequence/frame_jobs.h"
 #include "sequence/frame_range.h"
 #include "sequence/interrupt.h"
