@@ -41,7 +41,7 @@ void addHeaders(MHD_Response* response, const HttpResponse& answer) {
   add("Content-Type", answer.type);
   add("Cache-Control", "no-store");
   add("Content-Security-Policy",
-      "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
+      "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
       "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
   add("Cross-Origin-Opener-Policy", "same-origin");
   add("Cross-Origin-Resource-Policy", "same-origin");
