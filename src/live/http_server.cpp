@@ -164,9 +164,9 @@ HttpServer::HttpServer(uint16_t port, std::string token, Answer answer)
   state_->answer = std::move(answer);
   const int socket = listenOnLoopback(port, state_->address.port);
   state_->daemon = MHD_start_daemon(
-      MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_THREAD_PER_CONNECTION, state_->address.port,
-      nullptr, nullptr, &State::take, state_.get(), MHD_OPTION_LISTEN_SOCKET, socket,
-      MHD_OPTION_NOTIFY_COMPLETED, &State::forget, nullptr, MHD_OPTION_CONNECTION_LIMIT,
+      MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_THREAD_PER_CONNECTION | MHD_USE_POLL,
+      state_->address.port, nullptr, nullptr, &State::take, state_.get(), MHD_OPTION_LISTEN_SOCKET,
+      socket, MHD_OPTION_NOTIFY_COMPLETED, &State::forget, nullptr, MHD_OPTION_CONNECTION_LIMIT,
       mostConnections, MHD_OPTION_CONNECTION_TIMEOUT, silentSeconds,
       MHD_OPTION_CONNECTION_MEMORY_LIMIT, headerBytes, MHD_OPTION_END);
   if (state_->daemon) return;
