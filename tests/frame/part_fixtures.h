@@ -28,7 +28,7 @@ struct PartSpec {
   std::string name;
   std::string view;
   Channels channels;
-  Window window;  ///< 0 x 0: all of the display
+  Window window = {};  ///< 0 x 0: all of the display
   std::map<std::string, std::string> attributes = {};
 };
 

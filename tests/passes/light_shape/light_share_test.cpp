@@ -8,7 +8,7 @@
 namespace kagefude {
 namespace {
 
-std::vector<V2f> discPlaces(int ring) {
+std::vector<V2f> placesOfRings(int ring) {
   std::vector<V2f> places{{0, 0}};
   for (int i = 0; i < ring; ++i) {
     const double angle = 2 * M_PI * i / ring;
@@ -50,7 +50,7 @@ TEST(LightShare, LineOfLengthZeroIsTheHardMaskOfItsMiddle) {
 TEST(LightShare, DiscOfLinearDistancesIsTheCircleSegment) {
   for (const int ring : {4, 8})
     for (const float d : {-0.9f, -0.4f, 0.0f, 0.3f, 0.8f}) {
-      const std::vector<V2f> places = discPlaces(ring);
+      const std::vector<V2f> places = placesOfRings(ring);
       std::vector<float> s;
       for (const V2f& p : places) s.push_back(2 * (d + 0.6f * p.x + 0.8f * p.y));
       const double exact = 0.5 + (d * std::sqrt(1 - d * d) + std::asin(d)) / M_PI;
@@ -60,7 +60,7 @@ TEST(LightShare, DiscOfLinearDistancesIsTheCircleSegment) {
 }
 
 TEST(LightShare, LightSizeIsContinuousDownToTheHardCentreMask) {
-  const std::vector<V2f> places = discPlaces(8);
+  const std::vector<V2f> places = placesOfRings(8);
   std::mt19937 random(3);
   std::uniform_real_distribution<float> value(-4, 4);
   for (int trial = 0; trial < 20; ++trial) {
