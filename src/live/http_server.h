@@ -11,14 +11,14 @@ namespace kagefude {
 /// Serves one page on 127.0.0.1 and nowhere else, by GNU libmicrohttpd.
 ///
 /// Why that library, of the three that Debian 12 has (looked at in November 2026): civetweb 1.15
-/// carries an unmended heap overflow in its reading of addresses (CVE-2025-55763, of 1.14 to 1.16,
-/// remote code execution), and brings a file server and scripts that we would have to switch off.
-/// cpp-httplib 0.11.4 has one of its holes mended in Debian (CVE-2023-26130); open there are, among
-/// some twenty, bodies without a length that grow without bound (CVE-2025-46728), lines and headers
-/// without bound (CVE-2025-53628, CVE-2025-52887), headers that pose as the library's own
-/// (CVE-2025-66570), and messages of exceptions sent to the caller (CVE-2026-28434); a header that
-/// must be compiled in would keep them until we are built again. libmicrohttpd 0.9.75-6 has its one
-/// known hole mended (CVE-2023-27371, in a parser of forms that we do not use). It serves no
+/// has a heap overflow in its reading of addresses (CVE-2025-55763, of 1.14 to 1.16), which its
+/// package does not mend, and brings a file server and scripts that we would have to switch off.
+/// Of cpp-httplib 0.11.4 the package mends one hole (CVE-2023-26130); open are, among others,
+/// bodies without a length that grow without bound (CVE-2025-46728), lines without bound
+/// (CVE-2025-53628), headers that pose as the library's own (GHSA-xm2j-vfr9-mg9m) and messages of
+/// exceptions sent to the caller (CVE-2026-28434); compiled in from a header, they would stay until
+/// we are built again. Of libmicrohttpd 0.9.75-6 the hole that we found published is mended
+/// (CVE-2023-27371, in a parser of forms that we do not use). It serves no
 /// files and parses no bodies, hands the body over piece by piece so that its limit is ours, takes
 /// an address to listen on and a limit of memory for headers, and is a shared library, which Debian
 /// mends without us. It has no WebSockets, and none are wanted: the page asks for the next picture
