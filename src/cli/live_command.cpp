@@ -10,6 +10,7 @@
 #include <mutex>
 #include <ostream>
 
+#include "base/files_read.h"
 #include "cli/commands.h"
 #include "live/live.h"
 #include "sequence/frame_jobs.h"
@@ -61,7 +62,10 @@ int serve(const LiveOptions& options, Console& console) {
   settings.look = options.look;
   settings.inputs = inputsOf(options);
   settings.size = options.size;
-  readLook(options.look, {});  // a look that is wrong from the start ends the call
+  {
+    const LooksAtOutputs looking;  // it may be saved
+    readLook(options.look, {});    // a look that is wrong from the start ends the call
+  }
   LiveSession session(std::move(settings));
   const HttpServer server(options.port, randomToken(),
                           [&](const HttpRequest& request) { return answerPage(session, request); });

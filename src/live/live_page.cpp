@@ -127,10 +127,18 @@ HttpResponse probed(const LiveSession& session, const HttpRequest& request) {
   return json(probe(*view.picture, numberOf(request, "x", 0), numberOf(request, "y", 0)));
 }
 
+std::vector<std::string> overridesOf(const Json& wanted) {
+  return wanted.at("overrides").get<std::vector<std::string>>();
+}
+
+HttpResponse saved(const LiveSession& session, const HttpRequest& request) {
+  return json({{"before", session.save(overridesOf(Json::parse(request.body)))}});
+}
+
 HttpResponse changed(LiveSession& session, const HttpRequest& request) {
   const Json wanted = Json::parse(request.body);
   LiveChange change;
-  change.overrides = wanted.at("overrides").get<std::vector<std::string>>();
+  change.overrides = overridesOf(wanted);
   change.input = wanted.value("input", size_t{0});
   return json({{"change", session.change(std::move(change))}});
 }
@@ -140,6 +148,7 @@ HttpResponse changed(LiveSession& session, const HttpRequest& request) {
 HttpResponse answerPage(LiveSession& session, const HttpRequest& request) {
   try {
     if (request.method == "POST" && request.path == "/change") return changed(session, request);
+    if (request.method == "POST" && request.path == "/save") return saved(session, request);
     if (request.method == "GET") {
       if (request.path == "/tables") return json(tables());
       if (request.path == "/picture") return picture(session, request);

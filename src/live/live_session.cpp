@@ -6,10 +6,23 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/files_read.h"
 #include "live/page_paths.h"
 #include "live/stage_keys.h"
+#include "look/write_look.h"
 
 namespace kagefude {
+namespace {
+
+/// The look as the page asks for it. It may be saved later, so it counts as an output.
+Look readAsked(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  const LooksAtOutputs looking;
+  Look look = readLook(path, overrides);
+  refuseForeignPaths(readLook(path, {}), look);
+  return look;
+}
+
+}  // namespace
 
 LiveSession::LiveSession(Settings settings) : settings_(std::move(settings)) {
   if (settings_.inputs.empty()) throw InputError("there is no frame to show");
@@ -38,6 +51,11 @@ uint64_t LiveSession::change(LiveChange wanted) {
   sharpening_.request_stop();
   changed_.notify_all();
   return ++changes_;
+}
+
+std::vector<std::string> LiveSession::save(const std::vector<std::string>& overrides) const {
+  readAsked(settings_.look, overrides);
+  return saveLook(settings_.look, overrides);
 }
 
 LiveView LiveSession::view(uint64_t seen, std::chrono::milliseconds most) const {
@@ -103,8 +121,7 @@ void LiveSession::answer(bool whole) {
   sharp_ = true;  // after an error there is nothing to sharpen
   files_ = filesNow();
   try {
-    const Look look = readLook(settings_.look, now_.overrides);
-    refuseForeignPaths(readLook(settings_.look, {}), look);
+    const Look look = readAsked(settings_.look, now_.overrides);
     strips_.clear();
     for (const StyleLook& style : look.styles)
       if (!isBuiltinStrip(style.style.strip)) strips_.push_back(look.resolve(style.style.strip));

@@ -64,6 +64,11 @@ class LiveSession {
   /// InputError when there is no such input.
   uint64_t change(LiveChange wanted);
 
+  /// Writes overrides into the look's file (saveLook), which is then watched like any edit. Gives
+  /// the overrides that bring back what was there. Throws as saveLook, and LookError for files that
+  /// the page may not name.
+  std::vector<std::string> save(const std::vector<std::string>& overrides) const;
+
   /// The view as soon as its version is above `seen`, or what there is after `most` or once the
   /// session ends.
   LiveView view(uint64_t seen, std::chrono::milliseconds most) const;
