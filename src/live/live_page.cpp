@@ -22,6 +22,12 @@ HttpResponse json(const Json& value) {
           .body = value.dump(-1, ' ', true, Json::error_handler_t::replace)};
 }
 
+std::string textOf(const HttpRequest& request, const std::string& name,
+                   const std::string& otherwise = "") {
+  const auto given = request.query.find(name);
+  return given == request.query.end() ? otherwise : given->second;
+}
+
 /// A query's number, or what stands for none. Throws InputError.
 template <class Number>
 Number numberOf(const HttpRequest& request, const std::string& name, Number otherwise) {
@@ -90,6 +96,9 @@ Json describe(const LiveSession& session, const LiveView& view) {
   state["step"] = picture.step;
   state["painted"] = {picture.stages.planes->width, picture.stages.planes->height};
   state["stages"] = stageNames(picture);
+  const Colour& colour = *picture.strips->colour;
+  for (const std::string& display : colour.displays())
+    state["displays"][display] = colour.views(display);
   state["made"] = picture.made;
   state["warnings"] = picture.stages.warnings;
   state["values"] = valuesOf(*picture.look);
@@ -103,14 +112,13 @@ void addLength(std::string& bytes, size_t length) {
 
 HttpResponse picture(const LiveSession& session, const HttpRequest& request) {
   const auto seen = numberOf<uint64_t>(request, "seen", 0);
-  const auto exposure = numberOf<float>(request, "exposure", 0);
+  const Viewing viewing{numberOf<float>(request, "exposure", 0), textOf(request, "display"),
+                        textOf(request, "view")};
   const LiveView view = session.view(seen, longestPoll);
-  const auto stage = request.query.find("stage");
   Json state = describe(session, view);
   ShownPixels pixels;
   if (view.version > seen && view.picture) {
-    const std::string name = stage == request.query.end() ? "result" : stage->second;
-    pixels = showStage(*view.picture, name, exposure);
+    pixels = showStage(*view.picture, textOf(request, "stage", "result"), viewing);
     state["size"] = {pixels.width, pixels.height};
   }
   const std::string text = state.dump(-1, ' ', true, Json::error_handler_t::replace);

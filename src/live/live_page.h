@@ -19,15 +19,16 @@ const std::vector<PageFile>& pageFiles();
 
 /// Answers what the guard let through:
 ///   GET  /, /main.js ...   the page's files
-///   GET  /tables           the parameter tables, as `passes --json` prints them, each with where
-///   it
-///                          may stand (look, light, style)
-///   GET  /picture?seen=N&stage=S&exposure=E
+///   GET  /tables           the parameter tables, as `passes --json` prints them, each with the
+///   scopes
+///                          where it may stand (look, light, style)
+///   GET  /picture?seen=N&stage=S&exposure=E&display=D&view=V
 ///                          waits until there is a view above N (at most 20 s), then four bytes of
 ///                          length (little-endian), that many of JSON, and the stage's pixels
 ///                          (showStage) unless nothing is new
 ///   GET  /probe?x=X&y=Y    what lies at a pixel
 ///   POST /change           {"overrides": ["brush.contrast=0.3"], "input": 0}
+///   POST /save             {"overrides": [...]}: writes them into the look's file
 /// Whatever else is a 404; what is no JSON or of another shape a 400 that says so.
 HttpResponse answerPage(LiveSession& session, const HttpRequest& request);
 

@@ -47,15 +47,18 @@ ShownPixels labels(View<const uint32_t> plane) {
   return drawn(plane.width, plane.height, [&](int x, int y) { return labelColour(plane(x, y)); });
 }
 
-ShownPixels seen(const LivePicture& picture, const Vec3View& colour, float exposure) {
+ShownPixels seen(const LivePicture& picture, const Vec3View& colour, const Viewing& viewing) {
   Vec3Plane shown(colour.width(), colour.height());
-  const float gain = std::exp2(exposure);
+  const float gain = std::exp2(viewing.exposure);
   parallelRows(colour.height(), [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < colour.width(); ++x) shown.set(x, y, colour(x, y) * gain);
   });
   const ColourParams& spaces = picture.look->colour;
-  picture.strips->colour->toDisplay(shown.x, shown.y, shown.z, spaces.display, spaces.view);
+  const bool own = !viewing.display.empty();
+  picture.strips->colour->toDisplay(shown.x, shown.y, shown.z,
+                                    own ? viewing.display : spaces.display,
+                                    own ? viewing.view : spaces.view);
   return drawn(colour.width(), colour.height(), [&](int x, int y) { return shown.view()(x, y); });
 }
 
@@ -65,13 +68,12 @@ struct NamedStage {
 };
 
 /// All stages, each drawn when it is asked for.
-std::vector<NamedStage> stagesOf(const LivePicture& picture, float exposure) {
+std::vector<NamedStage> stagesOf(const LivePicture& picture, const Viewing& viewing) {
   const StagedFrame& frame = picture.stages;
   const FramePlanes& planes = *frame.planes;
   std::vector<NamedStage> stages;
   const auto colour = [&](const char* name, Vec3View view) {
-    if (!view.empty())
-      stages.push_back({name, [&, view] { return seen(picture, view, exposure); }});
+    if (!view.empty()) stages.push_back({name, [&, view] { return seen(picture, view, viewing); }});
   };
   const auto number = [&](std::string name, View<const float> view) {
     if (!view.empty()) stages.push_back({std::move(name), [view] { return grey(view); }});
@@ -100,13 +102,14 @@ std::vector<NamedStage> stagesOf(const LivePicture& picture, float exposure) {
 
 std::vector<std::string> stageNames(const LivePicture& picture) {
   std::vector<std::string> names;
-  for (const NamedStage& stage : stagesOf(picture, 0)) names.push_back(stage.name);
+  for (const NamedStage& stage : stagesOf(picture, {})) names.push_back(stage.name);
   return names;
 }
 
-ShownPixels showStage(const LivePicture& picture, const std::string& stage, float exposure) {
+ShownPixels showStage(const LivePicture& picture, const std::string& stage,
+                      const Viewing& viewing) {
   std::vector<std::string> names;
-  for (const NamedStage& own : stagesOf(picture, exposure)) {
+  for (const NamedStage& own : stagesOf(picture, viewing)) {
     if (own.name == stage) return own.show();
     names.push_back(own.name);
   }

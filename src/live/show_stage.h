@@ -17,10 +17,17 @@ struct ShownPixels {
   std::string bytes;
 };
 
-/// A stage as the display shows it: pictures through the look's display and view (on black) after
-/// `exposure` stops; numbers as grey from 0 to 1; labels in distinct colours; vectors as
-/// 0.5 + 0.5 n. Throws InputError when the picture has no such stage, LookError for an unknown
-/// display or view. Cost: for pictures OCIO's transform of every pixel.
-ShownPixels showStage(const LivePicture& picture, const std::string& stage, float exposure);
+/// How pictures are looked at.
+struct Viewing {
+  float exposure = 0;             ///< stops
+  std::string display{}, view{};  ///< of the colour configuration; "" for the look's own
+};
+
+/// A stage as the display shows it: pictures through display and view (on black) after `exposure`;
+/// numbers as grey from 0 to 1; labels in distinct colours; vectors as 0.5 + 0.5 n. Throws
+/// InputError when the picture has no such stage, LookError for an unknown display or view. Cost:
+/// for pictures OCIO's transform of every pixel.
+ShownPixels showStage(const LivePicture& picture, const std::string& stage,
+                      const Viewing& viewing = {});
 
 }  // namespace kagefude

@@ -39,7 +39,7 @@ class Session : public ::testing::Test, protected testing::SweepFrame {
   }
 
   static std::string shown(const LiveView& view) {
-    return showStage(*view.picture, "result", 0).bytes;
+    return showStage(*view.picture, "result").bytes;
   }
 };
 

@@ -26,9 +26,9 @@ std::string refusal(const std::string& text, const std::vector<std::string>& ove
 }
 
 TEST(WriteLook, AValueIsReplacedInPlace) {
-  EXPECT_EQ(written("# the look\nkagefude = 1\n\n[tone]\n gamma=  2.0   # softer\nhigh = 0.9\n",
+  EXPECT_EQ(written("# the look\nkagefude = 1\n\n[tone]\n gamma=  2.0   # softer\nwhite = 0.9\n",
                     {"tone.gamma=1.5"}),
-            "# the look\nkagefude = 1\n\n[tone]\n gamma=  1.5   # softer\nhigh = 0.9\n");
+            "# the look\nkagefude = 1\n\n[tone]\n gamma=  1.5   # softer\nwhite = 0.9\n");
   EXPECT_EQ(
       written("[[style]]\nobject = [ \"Vase\", # blue\n  \"Jar\" ] # both\nstrip = \"a.png\"\n",
               {"style[0].object=\"Vase\""}),
@@ -45,40 +45,41 @@ TEST(WriteLook, WhatMeansTheSameIsNotTouched) {
 }
 
 TEST(WriteLook, ANewKeyGoesBelowTheLastOfItsSection) {
-  EXPECT_EQ(
-      written("[tone]\n  low = 0.1 # dark\n# end of tone\n\n[smooth]\nh = 3\n", {"tone.gamma=1.5"}),
-      "[tone]\n  low = 0.1 # dark\n  gamma = 1.5\n# end of tone\n\n[smooth]\nh = 3\n");
+  EXPECT_EQ(written("[tone]\n  black = 0.1 # dark\n# end of tone\n\n[smooth]\nh = 3\n",
+                    {"tone.gamma=1.5"}),
+            "[tone]\n  black = 0.1 # dark\n  gamma = 1.5\n# end of tone\n\n[smooth]\nh = 3\n");
   EXPECT_EQ(written("[tone] # none yet\n[smooth]\n", {"tone.gamma=1.5"}),
             "[tone] # none yet\ngamma = 1.5\n[smooth]\n");
-  EXPECT_EQ(written("[tone]\nlow = 0.1", {"tone.gamma=1.5"}), "[tone]\nlow = 0.1\ngamma = 1.5\n");
-  EXPECT_EQ(written("tone.low = 0.1\n[smooth]\n", {"tone.gamma=1.5"}),
-            "tone.low = 0.1\ntone.gamma = 1.5\n[smooth]\n");
-  EXPECT_EQ(written("tone = { low = 0.1 } # short\n", {"tone.gamma=1.5"}),
-            "tone = { low = 0.1, gamma = 1.5 } # short\n");
+  EXPECT_EQ(written("[tone]\nblack = 0.1", {"tone.gamma=1.5"}),
+            "[tone]\nblack = 0.1\ngamma = 1.5\n");
+  EXPECT_EQ(written("tone.black = 0.1\n[smooth]\n", {"tone.gamma=1.5"}),
+            "tone.black = 0.1\ntone.gamma = 1.5\n[smooth]\n");
+  EXPECT_EQ(written("tone = { black = 0.1 } # short\n", {"tone.gamma=1.5"}),
+            "tone = { black = 0.1, gamma = 1.5 } # short\n");
   EXPECT_EQ(written("tone = {}\n", {"tone.gamma=1.5"}), "tone = { gamma = 1.5 }\n");
 }
 
 TEST(WriteLook, ANewSectionGoesToTheEnd) {
   EXPECT_EQ(written("", {"tone.gamma=1.5"}), "[tone]\ngamma = 1.5\n");
-  EXPECT_EQ(written("[[style]]\nstrip = \"a.png\"", {"tone.gamma=1.5", "tone.low=0.25"}),
-            "[[style]]\nstrip = \"a.png\"\n\n[tone]\ngamma = 1.5\nlow = 0.25\n");
+  EXPECT_EQ(written("[[style]]\nstrip = \"a.png\"", {"tone.gamma=1.5", "tone.black=0.25"}),
+            "[[style]]\nstrip = \"a.png\"\n\n[tone]\ngamma = 1.5\nblack = 0.25\n");
 }
 
 TEST(WriteLook, AnEntryTakesItsOwnKeys) {
   const std::string text =
-      "[[style]] # one\nobject = \"Vase\"\nbrush.contrast = 0.5\n[style.tone]\nlow = 0.1\n\n"
+      "[[style]] # one\nobject = \"Vase\"\nbrush.contrast = 0.5\n[style.tone]\nblack = 0.1\n\n"
       "[[style]] # two\nobject = \"Jar\"\n";
   EXPECT_EQ(written(text, {"style[0].brush.filter=false", "style[0].tone.gamma=2",
                            "style[1].brush.contrast=0.25", "style[1].priority=3"}),
             "[[style]] # one\nobject = \"Vase\"\nbrush.contrast = 0.5\nbrush.filter = false\n"
-            "[style.tone]\nlow = 0.1\ngamma = 2\n\n"
+            "[style.tone]\nblack = 0.1\ngamma = 2\n\n"
             "[[style]] # two\nobject = \"Jar\"\nbrush.contrast = 0.25\npriority = 3\n");
   EXPECT_EQ(written("style = [{ object = \"Vase\" }]\n", {"style[0].brush.contrast=0.5"}),
             "style = [{ object = \"Vase\", brush.contrast = 0.5 }]\n");
   EXPECT_EQ(written("[style]\nobject = \"Vase\"\n", {"style[0].brush.contrast=0.5"}),
             "[style]\nobject = \"Vase\"\nbrush.contrast = 0.5\n");
-  EXPECT_EQ(written("[style.tone]\nlow = 0.1\n", {"style[0].object=[\"Vase\"]"}),
-            "[style.tone]\nlow = 0.1\n\n[style]\nobject = [\"Vase\"]\n");
+  EXPECT_EQ(written("[style.tone]\nblack = 0.1\n", {"style[0].object=[\"Vase\"]"}),
+            "[style.tone]\nblack = 0.1\n\n[style]\nobject = [\"Vase\"]\n");
 }
 
 TEST(WriteLook, ANewEntryIsBegunByItsName) {
@@ -93,9 +94,9 @@ TEST(WriteLook, ANewEntryIsBegunByItsName) {
 }
 
 TEST(WriteLook, LineEndsMarksAndLettersStay) {
-  EXPECT_EQ(written("\xef\xbb\xbf# é\r\n[tone] # 影\r\nlow = 0.1 # 筆\r\n",
-                    {"tone.low=0.25", "tone.gamma=1.5", "smooth.h=3"}),
-            "\xef\xbb\xbf# é\r\n[tone] # 影\r\nlow = 0.25 # 筆\r\ngamma = 1.5\r\n\r\n"
+  EXPECT_EQ(written("\xef\xbb\xbf# é\r\n[tone] # 影\r\nblack = 0.1 # 筆\r\n",
+                    {"tone.black=0.25", "tone.gamma=1.5", "smooth.h=3"}),
+            "\xef\xbb\xbf# é\r\n[tone] # 影\r\nblack = 0.25 # 筆\r\ngamma = 1.5\r\n\r\n"
             "[smooth]\r\nh = 3\r\n");
   EXPECT_EQ(written("[[style]]\nobject = \"影筆\" # é\n", {"style[0].object=\"筆\\n影\""}),
             "[[style]]\nobject = [\"筆\\u000a影\"] # é\n");
@@ -241,9 +242,9 @@ class SavedLook : public ::testing::Test {
 
 TEST_F(SavedLook, WhatOthersWroteSinceStays) {
   const std::filesystem::path path = file("a.toml", "[tone]\ngamma = 2\n");
-  file("a.toml", "# by hand\n[tone]\ngamma = 2\nlow = 0.1\n");
+  file("a.toml", "# by hand\n[tone]\ngamma = 2\nblack = 0.1\n");
   saveLook(path, {"tone.gamma=1.5"});
-  EXPECT_EQ(contentOf(path), "# by hand\n[tone]\ngamma = 1.5\nlow = 0.1\n");
+  EXPECT_EQ(contentOf(path), "# by hand\n[tone]\ngamma = 1.5\nblack = 0.1\n");
 }
 
 TEST_F(SavedLook, ALinkAndTheRightsStay) {
@@ -259,7 +260,7 @@ TEST_F(SavedLook, ALinkAndTheRightsStay) {
 }
 
 TEST_F(SavedLook, AnErrorLeavesTheFileAsItIs) {
-  const std::string broken = "[tone]\ngamma = 2\nlow = \n";
+  const std::string broken = "[tone]\ngamma = 2\nblack = \n";
   const std::filesystem::path path = file("a.toml", broken);
   EXPECT_THROW(saveLook(path, {"tone.gamma=1.5"}), LookError);
   EXPECT_EQ(contentOf(path), broken);

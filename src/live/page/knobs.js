@@ -58,6 +58,16 @@ function numberControl({ type, range: [low, high] = [0, 1] }, turned) {
   return { parts: [slider, field], write };
 }
 
+const last = ['colour', 'output', 'frame']; // what is set once
+
+/** The sections of a scope: its own first, what is seldom turned last. */
+function sectionsOf(tables, scope) {
+  const rank = ({ pass }) => (pass === scope ? -1 : last.indexOf(pass) + 1);
+  return tables
+    .filter((table) => (table.list ? table.pass === scope : table.scopes.includes(scope)))
+    .sort((a, b) => rank(a) - rank(b));
+}
+
 export class Knobs {
   #knobs = [];
 
@@ -71,10 +81,8 @@ export class Knobs {
     this.root.replaceChildren();
     this.#knobs = [];
     const prefix = scope === 'look' ? '' : `${scope}[${index}].`;
-    for (const table of this.tables) {
-      const own = table.list && table.pass === scope;
-      if (!own && !table.scopes.includes(scope)) continue;
-      if (table.list && !own) continue;
+    for (const table of sectionsOf(this.tables, scope)) {
+      const own = table.list;
       const group = element('section', {}, element('h2', { title: table.source }, `${table.pass} `,
         element('small', {}, table.summary)));
       for (const parameter of table.parameters) {
@@ -89,9 +97,11 @@ export class Knobs {
   show(values, changed) {
     for (const knob of this.#knobs) {
       const value = values[knob.pass]?.[knob.name];
-      const isTurned = knob.row.contains(document.activeElement) && changed.has(knob.path);
+      const active = document.activeElement;
+      const isTurned = knob.row.contains(active) && !active.matches('button') && changed.has(knob.path);
       if (value !== undefined && !isTurned) knob.write(value);
       knob.row.classList.toggle('changed', changed.has(knob.path));
+      knob.row.classList.toggle('given', spell(value) !== knob.standard);
     }
   }
 
@@ -110,9 +120,13 @@ export class Knobs {
     parts[0].id = label.htmlFor = `knob-${path}`;
     const back = element('button', { textContent: '↺', title: 'back to the file' });
     back.onclick = () => this.reset(path);
-    const row = element('div', { className: 'knob' }, label, ...parts, back);
+    back.className = 'back';
+    const standard = spell(parameter.default);
+    const plain = element('button', { textContent: '⌂', title: `default ${standard}` });
+    plain.onclick = () => this.turned(path, standard);
+    const row = element('div', { className: 'knob' }, label, ...parts, plain, back);
     const words = `${pass}.${parameter.name} ${parameter.help}`.toLowerCase();
-    this.#knobs.push({ row, path, pass, name: parameter.name, write, words });
+    this.#knobs.push({ row, path, pass, name: parameter.name, write, words, standard });
     return row;
   }
 }

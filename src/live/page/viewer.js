@@ -1,16 +1,22 @@
-// The picture with zoom and pan, to single pixels.
+// The picture with zoom and pan, to single pixels, and a wipe over another one.
+
+const grip = 6; // how near to the wipe's line the pointer takes it, in CSS pixels
+const still = 4; // how far a click may move
 
 export class Viewer {
   #context;
   #picture = document.createElement('canvas');
+  #other = null; // what the wipe shows on its left
+  #wipe = 0.5; // where its line is, as a share of the picture
   #scale = 0; // 0: fits
   #x = 0;
   #y = 0;
   #full = [1, 1];
 
-  /** `pointed(x, y)` gets the pixel of the picture under the pointer, or nothing outside. */
-  constructor(canvas, pointed) {
+  /** `pointed(x, y)` and `clicked(x, y)` get the pixel of the picture under the pointer. */
+  constructor(canvas, pointed, clicked) {
     this.canvas = canvas;
+    this.clicked = clicked;
     this.#context = canvas.getContext('2d');
     new ResizeObserver(() => this.draw()).observe(canvas);
     canvas.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });
@@ -20,10 +26,15 @@ export class Viewer {
 
   /** `full` is the size of the unsampled picture, by which a proxy is laid over the same place. */
   show(pixels, full) {
-    this.#picture.width = pixels.width;
-    this.#picture.height = pixels.height;
-    this.#picture.getContext('2d').putImageData(pixels, 0, 0);
+    paint(this.#picture, pixels);
     this.#full = full;
+    this.draw();
+  }
+
+  /** What the wipe shows, or null for none. */
+  against(pixels) {
+    if (pixels) this.#other = paint(this.#other ?? document.createElement('canvas'), pixels);
+    else this.#other = null;
     this.draw();
   }
 
@@ -39,11 +50,10 @@ export class Viewer {
   /** The pixel of the shown picture under an event. */
   pixelAt(event) {
     const { scale, left, top } = this.#place();
-    const ratio = devicePixelRatio;
     const perPixel = this.#picture.width / this.#full[0];
     return [
-      Math.floor(((event.offsetX * ratio - left) / scale) * perPixel),
-      Math.floor(((event.offsetY * ratio - top) / scale) * perPixel),
+      Math.floor(((event.offsetX * devicePixelRatio - left) / scale) * perPixel),
+      Math.floor(((event.offsetY * devicePixelRatio - top) / scale) * perPixel),
     ];
   }
 
@@ -51,9 +61,34 @@ export class Viewer {
     const { canvas } = this;
     canvas.width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio));
     canvas.height = Math.max(1, Math.round(canvas.clientHeight * devicePixelRatio));
+    this.#drawOne(this.#picture);
+    if (this.#other) this.#drawWipe();
+  }
+
+  #drawOne(picture) {
     const { scale, left, top } = this.#place();
-    this.#context.imageSmoothingEnabled = scale * (this.#full[0] / this.#picture.width) < 1;
-    this.#context.drawImage(this.#picture, left, top, this.#full[0] * scale, this.#full[1] * scale);
+    const [width, height] = this.#full;
+    this.#context.imageSmoothingEnabled = scale * (width / picture.width) < 1;
+    this.#context.drawImage(picture, left, top, width * scale, height * scale);
+  }
+
+  #drawWipe() {
+    const context = this.#context;
+    const line = this.#line();
+    context.save();
+    context.beginPath();
+    context.rect(0, 0, line, this.canvas.height);
+    context.clip();
+    this.#drawOne(this.#other);
+    context.restore();
+    context.fillStyle = '#ffb84d';
+    context.fillRect(Math.round(line) - 1, 0, 2, this.canvas.height);
+  }
+
+  /** Where the wipe's line is on the canvas. */
+  #line() {
+    const { scale, left } = this.#place();
+    return left + this.#wipe * this.#full[0] * scale;
   }
 
   #place() {
@@ -88,21 +123,48 @@ export class Viewer {
   }
 
   #drag(start) {
-    const from = this.#place();
+    const wipes =
+      this.#other && Math.abs(start.offsetX - this.#line() / devicePixelRatio) <= grip;
+    const follow = wipes ? this.#wiping() : this.#panning(start);
+    let moved = wipes;
     const move = (event) => {
+      moved ||= Math.hypot(event.clientX - start.clientX, event.clientY - start.clientY) > still;
+      if (moved) follow(event);
+    };
+    const end = new AbortController();
+    const { signal } = end;
+    this.canvas.setPointerCapture(start.pointerId);
+    this.canvas.addEventListener('pointermove', move, { signal });
+    this.canvas.addEventListener('pointercancel', () => end.abort(), { signal });
+    this.canvas.addEventListener('pointerup', (event) => {
+      end.abort();
+      if (!moved && event.button === 0) this.clicked(...this.pixelAt(event));
+    }, { signal });
+  }
+
+  #wiping() {
+    return (event) => {
+      const { scale, left } = this.#place();
+      const share = (event.offsetX * devicePixelRatio - left) / (this.#full[0] * scale);
+      this.#wipe = Math.min(1, Math.max(0, share));
+      this.draw();
+    };
+  }
+
+  #panning(start) {
+    const from = this.#place();
+    return (event) => {
       this.#scale = from.scale;
       this.#x = from.left + (event.clientX - start.clientX) * devicePixelRatio;
       this.#y = from.top + (event.clientY - start.clientY) * devicePixelRatio;
       this.draw();
     };
-    const end = () => {
-      this.canvas.removeEventListener('pointermove', move);
-      this.canvas.removeEventListener('pointerup', end);
-      this.canvas.removeEventListener('pointercancel', end);
-    };
-    this.canvas.setPointerCapture(start.pointerId);
-    this.canvas.addEventListener('pointermove', move);
-    this.canvas.addEventListener('pointerup', end);
-    this.canvas.addEventListener('pointercancel', end);
   }
+}
+
+function paint(canvas, pixels) {
+  canvas.width = pixels.width;
+  canvas.height = pixels.height;
+  canvas.getContext('2d').putImageData(pixels, 0, 0);
+  return canvas;
 }
