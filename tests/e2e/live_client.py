@@ -66,6 +66,9 @@ for what, wanted, got in (
         ("another host", 403, ask("GET", BASE, host="evil.example")),
         ("a name that resolves here", 403, ask("GET", BASE, host=f"evil.example:{url.port}")),
         ("another origin", 403, ask("POST", BASE + "change", change, {"Origin": "http://evil.example"})),
+        ("a save from another origin", 403, ask("POST", BASE + "save", change, {"Origin": "http://evil.example"})),
+        ("a save of a wrong key", 400, ask("POST", BASE + "save", b'{"overrides": ["brush.contrst=1"]}')),
+        ("a save of a foreign file", 400, ask("POST", BASE + "save", b'{"overrides": ["colour.config=/etc/passwd"]}')),
         ("no token", 403, ask("GET", "/")),
         ("a wrong token", 403, ask("GET", "/" + "0" * 32 + "/")),
         ("a path out", 400, ask("GET", BASE + "../../etc/passwd")),
@@ -81,4 +84,13 @@ for strip in ("/etc/passwd", "../strip.png"):
     expect(strip, pixels, before)
 expect("the look on disk", open(look, "rb").read(), disk)
 turn()
+
+# Save: what was turned, and nothing else.
+status, body = ask("POST", BASE + "save", change, {"Origin": f"http://{HOST}"})
+expect("save", (status, json.loads(body)), (200, {"before": ["brush.contrast=1"]}))
+expect("the saved look", open(look, "rb").read(), disk + b"\n[brush]\ncontrast = 0.9\n")
+state, pixels = picture()
+while state["values"]["look"]["brush"]["contrast"] == 1:
+    state, pixels = picture(state["version"])
+assert pixels != before, "the saved look is not shown"
 print("live: every answer as it should be")

@@ -21,7 +21,7 @@ TEST(StageKey, EveryParameterOfEveryTableCounts) {
       Value value = parameter.get(values);
       if (auto* flag = std::get_if<bool>(&value)) *flag = !*flag;
       if (auto* whole = std::get_if<int>(&value)) *whole += *whole > 0 ? -1 : 1;
-      if (auto* number = std::get_if<double>(&value)) *number = *number * 0.5 + 0.25;
+      if (auto* number = std::get_if<double>(&value)) *number += 1;
       if (auto* text = std::get_if<std::string>(&value)) *text += "x";
       if (auto* numbers = std::get_if<std::vector<double>>(&value)) numbers->push_back(1);
       if (auto* texts = std::get_if<std::vector<std::string>>(&value)) texts->push_back("x");

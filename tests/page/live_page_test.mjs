@@ -37,7 +37,7 @@ before(async () => {
     program.stdout.once('data', (text) => resolve(String(text).trim()));
     program.once('exit', (code) => reject(new Error(`kagefude live ended with ${code}`)));
   });
-  browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox'] });
+  browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu'] });
 });
 
 after(async () => {
@@ -70,8 +70,9 @@ beforeEach(async () => {
   await page.waitForFunction(() => document.querySelectorAll('#knobs .knob').length > 20);
 });
 
-/** What the canvas shows, in few words. */
-const shown = () => page.evaluate(() => {
+/** What the canvas shows once all is laid out, in few words. */
+const shown = () => page.evaluate(async () => {
+  for (let i = 0; i < 2; ++i) await new Promise(requestAnimationFrame);
   const canvas = document.getElementById('canvas');
   const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
   let hash = 0;
