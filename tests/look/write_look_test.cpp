@@ -69,11 +69,12 @@ TEST(WriteLook, AnEntryTakesItsOwnKeys) {
   const std::string text =
       "[[style]] # one\nobject = \"Vase\"\nbrush.contrast = 0.5\n[style.tone]\nblack = 0.1\n\n"
       "[[style]] # two\nobject = \"Jar\"\n";
-  EXPECT_EQ(written(text, {"style[0].brush.filter=false", "style[0].tone.gamma=2",
-                           "style[1].brush.contrast=0.25", "style[1].priority=3"}),
-            "[[style]] # one\nobject = \"Vase\"\nbrush.contrast = 0.5\nbrush.filter = false\n"
-            "[style.tone]\nblack = 0.1\ngamma = 2\n\n"
-            "[[style]] # two\nobject = \"Jar\"\nbrush.contrast = 0.25\npriority = 3\n");
+  EXPECT_EQ(
+      written(text, {"style[0].brush.filter=bilinear", "style[0].tone.gamma=2",
+                     "style[1].brush.contrast=0.25", "style[1].priority=3"}),
+      "[[style]] # one\nobject = \"Vase\"\nbrush.contrast = 0.5\nbrush.filter = \"bilinear\"\n"
+      "[style.tone]\nblack = 0.1\ngamma = 2\n\n"
+      "[[style]] # two\nobject = \"Jar\"\nbrush.contrast = 0.25\npriority = 3\n");
   EXPECT_EQ(written("style = [{ object = \"Vase\" }]\n", {"style[0].brush.contrast=0.5"}),
             "style = [{ object = \"Vase\", brush.contrast = 0.5 }]\n");
   EXPECT_EQ(written("[style]\nobject = \"Vase\"\n", {"style[0].brush.contrast=0.5"}),
