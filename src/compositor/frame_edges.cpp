@@ -87,12 +87,10 @@ void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& b
   brush.a = std::move(blended.a);
 }
 
-void blendInside(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
-                 View<const uint8_t> joins, BrushResult& brush) {
-  std::optional<CameraRays> rays;
-  if (plan.sidecar) rays = raysOf(plan);
+void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<const uint8_t> joins,
+                 BrushResult& brush) {
   EdgeSurfaces surfaces{planes.objectId, styled.anchorIndex, joins, planes.normal, planes.position};
-  surfaces.rays = rays ? &*rays : nullptr;
+  surfaces.rays = planes.rays ? &*planes.rays : nullptr;
   surfaces.betweenObjects = planes.coverageIds.empty();
   blendInnerEdges(surfaces, {brush.r.view(), brush.g.view(), brush.b.view(), brush.a.view()});
 }

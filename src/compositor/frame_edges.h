@@ -12,8 +12,8 @@ void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& b
 
 /// Blends the strokes where edges run inside an object, and between objects where the frame has no
 /// coverage. `joins` are those of its surfaces.
-void blendInside(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
-                 View<const uint8_t> joins, BrushResult& brush);
+void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<const uint8_t> joins,
+                 BrushResult& brush);
 
 /// Puts the beauty behind the strokes, each thing once: where coverage is known, not the things
 /// that are painted, but what lies beside them.
