@@ -7,10 +7,12 @@
 
 #include "base/error.h"
 #include "compositor/casting_scene.h"
+#include "compositor/position_pass.h"
 #include "compositor/rest_pass.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
+#include "frame/rebuild_positions.h"
 #include "frame/sanitise.h"
 #include "image/parallel.h"
 
@@ -94,10 +96,24 @@ void clearOutside(const FramePlan& plan, FramePlanes& planes) {
   });
 }
 
+/// Nothing is seen where there is no depth that a position could be rebuilt from.
+void clearWithoutDepth(const FramePlan& plan, FramePlanes& planes) {
+  if (!plan.spaces.rebuilt) return;
+  parallelRows(planes.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x)
+        if (planes.position.view()(x, y) == V3f(0.0f)) planes.objectId(x, y) = 0;
+  });
+}
+
 /// A reading that the look can set stops the frame; what nothing explains is said.
 void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
-  const SpaceDoubt doubt =
+  SpaceDoubt doubt =
       doubtSpaces(plan.spaces, plan.image, planes.position, planes.normal, planes.objectId);
+  if (!doubt.known) {
+    SpaceDoubt nearer = doubtDepth(plan.spaces, planes.position, planes.normal, planes.objectId);
+    if (!nearer.sentence.empty()) doubt = std::move(nearer);
+  }
   if (doubt.known)
     throw InputError(fmt::format("{}: {}", plan.image.path.string(), doubt.sentence));
   if (!doubt.sentence.empty()) planes.warnings.push_back(doubt.sentence);
@@ -123,7 +139,8 @@ void clearUnpainted(const FramePlan& plan, FramePlanes& planes) {
 FramePlanes readFramePlanes(const FramePlan& plan) {
   FramePlanes planes;
   ChannelReader reader(plan.image);
-  requestVector(reader, plan.position, planes.position);
+  PositionPass positions;
+  requestPositions(reader, plan, positions);
   requestVector(reader, plan.normal, planes.normal);
   if (plan.albedo) requestVector(reader, *plan.albedo, planes.albedo);
   Floats restAlpha;
@@ -166,6 +183,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
       reader.floats(plan.lights[i].tracedChannel, traced[i]);
   reader.read();
 
+  planes.position = takePositions(plan, positions);
   planes.width = planes.position.x.width();
   planes.height = planes.position.x.height();
   for (size_t i = 0; i < plan.lights.size(); ++i) {
@@ -195,6 +213,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
+  clearWithoutDepth(plan, planes);
   clearUnpainted(plan, planes);
   checkSpaces(plan, planes);
   return planes;

@@ -1,0 +1,58 @@
+#include "compositor/position_pass.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "frame/rebuild_positions.h"
+
+namespace kagefude {
+namespace {
+
+[[noreturn]] void refuse(const AovNames& names, const FramePlan& plan, const std::string& depth,
+                         const std::string& fault) {
+  try {
+    requireAov(plan.image, names, AovKind::position);
+  } catch (const InputError& missing) {
+    throw InputError(
+        fmt::format("{}; nor can positions be rebuilt from {}: {}", missing.what(), depth, fault));
+  }
+  throw InputError(fmt::format("{}: {}", plan.image.path.string(), fault));
+}
+
+}  // namespace
+
+void planPositions(const AovNames& names, FramePlan& plan) {
+  if (auto position = findAov(plan.image, names, AovKind::position)) {
+    plan.position = *std::move(position);
+    return;
+  }
+  const auto depth = findAov(plan.image, names, AovKind::depth);
+  if (!depth) requireAov(plan.image, names, AovKind::position);
+  const std::string fault = rebuildFault(plan.spaces);
+  if (!fault.empty()) refuse(names, plan, depth->name, fault);
+  plan.position = *depth;
+  plan.spaces.rebuilt = true;
+  plan.warnings.push_back(
+      fmt::format("there is no Position pass; positions are rebuilt from {}, taken as {}, and {}",
+                  depth->name, depthKindNames[static_cast<size_t>(plan.spaces.measuredAlong())],
+                  plan.spaces.camera->source));
+}
+
+void requestPositions(ChannelReader& reader, const FramePlan& plan, PositionPass& pass) {
+  const auto& channels = plan.position.channels;
+  if (plan.spaces.rebuilt) {
+    reader.floats(channels.at(0), pass.depth);
+    return;
+  }
+  reader.floats(channels.at(0), pass.given.x);
+  reader.floats(channels.at(1), pass.given.y);
+  reader.floats(channels.at(2), pass.given.z);
+}
+
+Vec3Plane takePositions(const FramePlan& plan, PositionPass& pass) {
+  if (!plan.spaces.rebuilt) return std::move(pass.given);
+  const Floats depth = std::move(pass.depth);
+  return rebuildPositions(depth, plan.spaces, plan.image);
+}
+
+}  // namespace kagefude
