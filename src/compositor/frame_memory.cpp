@@ -120,8 +120,9 @@ size_t frameMemory(const Look& look, const FramePlan& plan,
   const size_t writing = written + passed + (area > 1 ? passed / area + ofRanks : 0);
   const size_t pixels =
       static_cast<size_t>(plan.image.width) * static_cast<size_t>(plan.image.height);
-  return (std::max({reading, composing, writing}) + ofChange) * pixels +
-         pictureBytes(plan, pictures) / area + depthMapBytes(plan) + casterBytes(plan) +
+  const size_t before = std::max(reading, composing) * pixels;
+  const size_t after = writing * pixels + pictureBytes(plan, pictures) / area;
+  return std::max(before, after) + ofChange * pixels + depthMapBytes(plan) + casterBytes(plan) +
          chunkBytes(plan, std::max(input, asHalf + layers + passed));
 }
 

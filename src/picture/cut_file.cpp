@@ -32,6 +32,13 @@ bool jpegHasNoEnd(const std::filesystem::path& path, uint64_t fileBytes) {
   return bytesAt(path, from, tail).find("\xFF\xD9") == std::string::npos;
 }
 
+/// A PNG ends with an empty IEND chunk and its check sum; a little may be appended.
+bool pngHasNoEnd(const std::filesystem::path& path, uint64_t fileBytes) {
+  constexpr uint64_t tail = 1 << 16;
+  const uint64_t from = fileBytes - std::min(fileBytes, tail);
+  return bytesAt(path, from, tail).find("IEND\xAE\x42\x60\x82") == std::string::npos;
+}
+
 /// The first chunk holds all others and says how long it is.
 bool iffIsShort(const std::filesystem::path& path, uint64_t fileBytes) {
   return bigEndian(bytesAt(path, 4, 4)) + 8 > fileBytes;
@@ -61,6 +68,7 @@ bool isCutShort(const std::filesystem::path& path, const PictureHeader& header,
                 uint64_t fileBytes) {
   if (header.format == "tiff") return tiffIsCutShort(path, fileBytes);
   if (header.format == "jpeg") return jpegHasNoEnd(path, fileBytes);
+  if (header.format == "png") return pngHasNoEnd(path, fileBytes);
   if (header.format == "iff") return iffIsShort(path, fileBytes);
   if (header.format == "dds") return ddsIsShort(header, fileBytes);
   if (header.format == "dpx") return filmIsShort(path, fileBytes, 16, "X");

@@ -9,6 +9,7 @@
 #include "base/printable.h"
 #include "base/temp_file.h"
 #include "image/parallel.h"
+#include "picture/cut_file.h"
 #include "picture/picture_worker.h"
 #include "picture/shared_pixels.h"
 
@@ -87,6 +88,9 @@ void writePicture(const std::filesystem::path& path, const PictureHeader& header
       words.replace(at, temporary.size(), path.filename().string());
     refuse(path, printable(words));
   }
+  std::error_code unknown;
+  if (isCutShort(file.path(), header, std::filesystem::file_size(file.path(), unknown)) || unknown)
+    refuse(path, "not all of it was taken by the disk; is it full?");
   file.commit();
 }
 

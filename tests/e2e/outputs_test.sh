@@ -163,4 +163,15 @@ printf '#!/bin/sh\nkill -9 $$\n' >killed/kagefude-oiio
 chmod +x killed/kagefude-oiio
 killed/kagefude comp look.toml one.0001.exr -o killed.tif --progress none 2>said && fail "a dead worker writes" || pass
 check "a killed worker is said to be something else: $(cat said)" grep -q "ended by signal 9" said
+# A disk that is full in the middle of a picture, however little its encoder makes of it.
+if [ "$(id -u)" -eq 0 ] && mkdir full && mount -t tmpfs -o size=4k tmpfs full 2>/dev/null; then
+  for suffix in png tif jpg dpx webp; do
+    code=$(exit_code comp one.0001.exr full/a.$suffix)
+    check "a full disk and .$suffix: exit $code" test "$code" -eq 1
+    check "a full disk keeps a piece of a .$suffix" test -z "$(ls -A full)"
+  done
+  umount full
+else
+  echo "skipped: a full disk (needs root and tmpfs)"
+fi
 summary

@@ -3,20 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "test_folder.h"
 
 namespace kagefude {
 namespace {
-
-template <class Wrong, class Step>
-std::string wordsOf(const Step& step) {
-  try {
-    step();
-  } catch (const Wrong& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "no error";
-  return "";
-}
 
 TEST(PictureFormat, SuffixesOfEitherCaseNameIt) {
   EXPECT_EQ(formatOf("a/shot.####.TIFF", "--output").name, "tiff");
@@ -25,10 +15,10 @@ TEST(PictureFormat, SuffixesOfEitherCaseNameIt) {
 }
 
 TEST(PictureFormat, OtherSuffixesAreAnsweredWithAllOfThem) {
-  const std::string near = wordsOf<UsageError>([] { formatOf("out/a.tga", "--output"); });
+  const std::string near = messageOf<UsageError>([] { formatOf("out/a.tga", "--output"); });
   EXPECT_NE(near.find("--output out/a.tga: no pictures are written as .tga"), std::string::npos);
   EXPECT_NE(near.find(".exr, .tif, .tiff, .png, .dpx, .jpg, .jpeg and .webp"), std::string::npos);
-  EXPECT_NE(wordsOf<UsageError>([] { formatOf("shot", "--output"); }).find("no suffix"),
+  EXPECT_NE(messageOf<UsageError>([] { formatOf("shot", "--output"); }).find("no suffix"),
             std::string::npos);
 }
 
@@ -36,7 +26,7 @@ TEST(PictureFormat, DepthIsTheUsualOneOrOneThatItHolds) {
   const PictureFormat& png = formatOf("a.png", "--output");
   EXPECT_EQ(depthFor(png, SampleDepth::automatic), SampleDepth::uint16);
   EXPECT_EQ(depthFor(png, SampleDepth::uint8), SampleDepth::uint8);
-  EXPECT_EQ(wordsOf<LookError>([&] { depthFor(png, SampleDepth::half); }),
+  EXPECT_EQ(messageOf<LookError>([&] { depthFor(png, SampleDepth::half); }),
             "output.colour = \"half\" does not go into .png files, which hold uint16 and uint8");
   EXPECT_EQ(depthFor(formatOf("a.dpx", ""), SampleDepth::automatic), SampleDepth::uint10);
 }
