@@ -220,6 +220,8 @@ const std::map<std::string, Trial> trials = {
     {"frame.normal_axes",
      {"frame.normal = \"MoreNormal\"\n" + painted, "frame.normal_axes = \"y -x z\""}},
     {"frame.depth_kind", {"RebuiltFrame", ""}},
+    {"frame.up",
+     {"scene.centre = [0, 0, 0]\nscene.radius = 2\n" + bare, "frame.up = \"y\"", false}},
     {"frame.camera_from_world", {"RebuiltFrame", ""}},
     {"frame.clip_from_camera", {"RebuiltFrame", ""}},
     {"scene.centre",
