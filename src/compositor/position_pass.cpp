@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
+
 #include "base/error.h"
 #include "frame/rebuild_positions.h"
+#include "image/parallel.h"
 
 namespace kagefude {
 namespace {
@@ -53,6 +57,32 @@ Vec3Plane takePositions(const FramePlan& plan, PositionPass& pass) {
   if (!plan.spaces.rebuilt) return std::move(pass.given);
   const Floats depth = std::move(pass.depth);
   return rebuildPositions(depth, plan.spaces, plan.image);
+}
+
+void clearWithoutDepth(const FramePlan& plan, FramePlanes& planes) {
+  if (!plan.spaces.rebuilt) return;
+  std::atomic<size_t> seen = 0, cleared = 0;
+  parallelRows(planes.height, [&](int first, int end) {
+    size_t ownSeen = 0, ownCleared = 0;
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < planes.width; ++x) {
+        if (planes.objectId(x, y) == 0) continue;
+        ++ownSeen;
+        if (planes.position.view()(x, y) != V3f(0.0f)) continue;
+        ++ownCleared;
+        planes.objectId(x, y) = 0;
+      }
+    seen += ownSeen;
+    cleared += ownCleared;
+  });
+  constexpr double ofEdges = 0.05;
+  const auto share = static_cast<double>(cleared) / static_cast<double>(std::max<size_t>(seen, 1));
+  if (share <= ofEdges) return;
+  const std::string what = fmt::format(
+      "{} is no place (0, negative, or above 9e9) in {} of the pixels that show objects",
+      plan.position.name, cleared == seen ? "all" : fmt::format("{:.0f} %", 100 * share));
+  if (cleared == seen) throw InputError(fmt::format("{}: {}", plan.image.path.string(), what));
+  planes.warnings.push_back(what + ", so these stay unpainted");
 }
 
 }  // namespace kagefude

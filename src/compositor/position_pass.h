@@ -24,4 +24,9 @@ void requestPositions(ChannelReader& reader, const FramePlan& plan, PositionPass
 /// or rebuilt in world space.
 Vec3Plane takePositions(const FramePlan& plan, PositionPass& pass);
 
+/// Nothing is seen where there is no depth that a position could be rebuilt from: ids become 0
+/// there. InputError where that leaves nothing of what the ids show, a warning where it takes more
+/// than edges do (5 %). Nothing for positions that were not rebuilt.
+void clearWithoutDepth(const FramePlan& plan, FramePlanes& planes);
+
 }  // namespace kagefude

@@ -96,16 +96,6 @@ void clearOutside(const FramePlan& plan, FramePlanes& planes) {
   });
 }
 
-/// Nothing is seen where there is no depth that a position could be rebuilt from.
-void clearWithoutDepth(const FramePlan& plan, FramePlanes& planes) {
-  if (!plan.spaces.rebuilt) return;
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x)
-        if (planes.position.view()(x, y) == V3f(0.0f)) planes.objectId(x, y) = 0;
-  });
-}
-
 /// A reading that the look can set stops the frame; what nothing explains is said.
 void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
   SpaceDoubt doubt =

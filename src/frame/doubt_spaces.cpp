@@ -19,7 +19,8 @@ constexpr size_t fewestPlaces = 64;
 constexpr float passes = 0.004f, namedWithin = 0.1f, muchBetter = 0.25f, better = 0.4f;
 constexpr float hopeless = 0.3f;
 // Of rebuilt positions the camera may be wrong as well, and other axes of the normals explain only
-// some of that: 14 degrees are more than the bumps of half a picture.
+// some of that: 14 degrees are more than the bumps of half a picture, for what is taken and for
+// what is named.
 constexpr float hopelessRebuilt = 0.03f;
 // A ground that fills the picture may agree with another reading than all that stands on it: even
 // where the middle agrees, so small a share of places beyond `namedWithin` is looked into.
@@ -85,10 +86,10 @@ std::vector<Trial> tryAll(const std::vector<SmoothPlace>& places,
 // of the picture many readings fit in the middle, the plain one perhaps; the mean over all places
 // tells them apart.
 std::optional<NormalReading> explain(const std::vector<SmoothPlace>& places,
-                                     const std::optional<Transform>& camera) {
+                                     const std::optional<Transform>& camera, float within) {
   const float plain = meanDeviation(places, {}), plainMiddle = middleDeviation(places, {});
   std::vector<Trial> trials = tryAll(places, camera);
-  std::erase_if(trials, [](const Trial& trial) { return trial.middle > namedWithin; });
+  std::erase_if(trials, [&](const Trial& trial) { return trial.middle > within; });
   float best = 2, bestMiddle = 2;
   for (const Trial& trial : trials) {
     best = std::min(best, trial.mean);
@@ -155,7 +156,8 @@ SpaceDoubt doubtSpaces(const VectorSpaces& spaces, const ImageFile& file, Vec3Vi
   if (hidden && static_cast<double>(wrong.size()) < fewWrong * static_cast<double>(places.size()))
     return {};
   const std::optional<Transform> said = cameraOf(spaces);
-  const auto found = explain(places, said ? said : fitted);
+  const auto found =
+      explain(places, said ? said : fitted, spaces.rebuilt ? hopelessRebuilt : namedWithin);
   const bool asked = spaces.normal != VectorSpace::automatic ||
                      spaces.range != NormalRange::automatic || !spaces.axes.empty();
   if (found && !asked)

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "frame/camera_faults.h"
 #include "frame/ndc_projection.h"
 
 namespace kagefude {
@@ -17,21 +18,75 @@ namespace {
 using namespace detail;
 
 template <class Attribute>
-const Attribute* findIn(const ImageFile& file, std::initializer_list<const char*> names) {
-  for (const int part : file.ownParts)
-    for (const char* name : names) {
-      const auto& header = (*file.headers)[static_cast<size_t>(part)];
-      if (const auto* found = header.findTypedAttribute<Attribute>(name)) return found;
-    }
+const Attribute* findIn(const ImageFile& file, const char* name) {
+  for (const int part : file.ownParts) {
+    const auto& header = (*file.headers)[static_cast<size_t>(part)];
+    if (const auto* found = header.findTypedAttribute<Attribute>(name)) return found;
+  }
   return nullptr;
 }
 
-Transform asGiven(const Imf::M44fAttribute& attribute) {
+template <class Matrix>
+Transform asGiven(const Matrix& matrix) {
   Transform result;
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column)
-      result.m[row][column] = attribute.value().x[row][column];
+      result.m[row][column] = static_cast<double>(matrix.x[row][column]);
   return result;
+}
+
+std::optional<Transform> matrixIn(const Imf::Header& header, const char* name) {
+  if (const auto* found = header.findTypedAttribute<Imf::M44fAttribute>(name))
+    return asGiven(found->value());
+  if (const auto* found = header.findTypedAttribute<Imf::M44dAttribute>(name))
+    return asGiven(found->value());
+  return std::nullopt;
+}
+
+bool isSame(const Transform& a, const Transform& b) {
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) {
+      const double size = 1 + std::abs(a.m[row][column]);
+      if (std::abs(a.m[row][column] - b.m[row][column]) > 1e-4 * size) return false;
+    }
+  return true;
+}
+
+std::string labelOf(const Part& part) {
+  return part.name.empty() ? part.file.filename().string() : part.name;
+}
+
+// A part that names no view speaks for the default one.
+std::string viewFault(const ImageFile& file, const Part& part) {
+  if (file.views.size() < 2 || part.view == file.view || file.view == file.views.front()) return "";
+  return fmt::format("is not said to be that of the view {}", file.view);
+}
+
+struct HeaderMatrix {
+  Transform given;
+  int part = 0;
+  std::string fault;  ///< why it must not be used, to follow its name
+};
+
+// The first own part's that has one; parts of one view must agree.
+std::optional<HeaderMatrix> findMatrix(const ImageFile& file,
+                                       std::initializer_list<const char*> names) {
+  std::optional<HeaderMatrix> first;
+  for (const int number : file.ownParts)
+    for (const char* name : names) {
+      const auto found = matrixIn((*file.headers)[static_cast<size_t>(number)], name);
+      if (!found) continue;
+      const Part& part = file.parts[static_cast<size_t>(number)];
+      if (!first) {
+        first = HeaderMatrix{*found, number, viewFault(file, part)};
+        continue;
+      }
+      const Part& firstPart = file.parts[static_cast<size_t>(first->part)];
+      if (first->fault.empty() && part.view == firstPart.view && !isSame(*found, first->given))
+        first->fault =
+            fmt::format("is another one in {} than in {}", labelOf(part), labelOf(firstPart));
+    }
+  return first;
 }
 
 Transform transposed(const Transform& t) {
@@ -41,29 +96,11 @@ Transform transposed(const Transform& t) {
   return result;
 }
 
-V3d columnOf(const Transform& t, int column) {
-  return {t.m[0][column], t.m[1][column], t.m[2][column]};
-}
-
-double determinant(const Transform& t) {
-  return columnOf(t, 0).cross(columnOf(t, 1)).dot(columnOf(t, 2));
-}
+V3d placeOf(const Transform& t) { return {t.m[0][3], t.m[1][3], t.m[2][3]}; }
 
 double aspectOf(const ImageFile& file) {
   const Window& display = file.displayWindow;
   return static_cast<double>(display.width) * file.pixelAspect / display.height;
-}
-
-// Whether it maps by columns, its last row being 0 0 0 1.
-bool isAffine(const Transform& t) {
-  return t.m[3][0] == 0 && t.m[3][1] == 0 && t.m[3][2] == 0 && t.m[3][3] == 1;
-}
-
-bool isFinite(const Transform& t) {
-  for (const auto& row : t.m)
-    for (const double value : row)
-      if (!std::isfinite(value)) return false;
-  return true;
 }
 
 bool isSymmetric(const Transform& t) {
@@ -76,17 +113,6 @@ bool isSymmetric(const Transform& t) {
 // Whether nothing shows if it is written by rows or by columns.
 bool isAmbiguous(const Transform& t) { return isAffine(t) && isAffine(transposed(t)); }
 
-// "" for a rotation, mirrored or not; the same for its transposed.
-std::string rigidFault(const Transform& t) {
-  constexpr double most = 1e-3;
-  for (int i = 0; i < 3; ++i) {
-    const double length = columnOf(t, i).length();
-    if (std::abs(length - 1) > most) return fmt::format("scales by {:.4g}", length);
-    if (std::abs(columnOf(t, i).dot(columnOf(t, (i + 1) % 3))) > most) return "skews";
-  }
-  return "";
-}
-
 // The readings that a header's matrix allows: where its translation does not show whether it is
 // written by rows or by columns, both, the former first, as OpenEXR says.
 struct ReadMatrix {
@@ -94,19 +120,22 @@ struct ReadMatrix {
   std::string fault;
 };
 
-ReadMatrix readAffine(const Transform& given) {
+Transform byColumns(const Transform& given, bool byRows) {
+  return byRows ? transposed(given) : given;
+}
+
+ReadMatrix readAffine(const HeaderMatrix& found) {
+  if (!found.fault.empty()) return {{}, found.fault};
+  const Transform& given = found.given;
   ReadMatrix read;
-  if (!isFinite(given)) return {{}, "holds numbers that are not finite"};
   if (isAffine(transposed(given))) read.byRows.push_back(true);
   if (isAffine(given) && !(isSymmetric(given) && !read.byRows.empty()))
     read.byRows.push_back(false);
-  if (read.byRows.empty()) return {{}, "has no row or column 0 0 0 1"};
-  read.fault = rigidFault(given);
+  // Also where numbers are not finite, which rigidFault says first.
+  read.fault = rigidFault(byColumns(given, !read.byRows.empty() && read.byRows.front()));
+  if (read.byRows.empty() && read.fault.find("finite") == std::string::npos)
+    read.fault = "has no row or column 0 0 0 1";
   return read;
-}
-
-Transform byColumns(const Transform& given, bool byRows) {
-  return byRows ? transposed(given) : given;
 }
 
 std::string doubtOrder(const std::string& source) {
@@ -117,7 +146,7 @@ std::string doubtOrder(const std::string& source) {
 }
 
 Transform lookingAlongMinusZ(Transform cameraFromWorld) {
-  if (determinant(cameraFromWorld) < 0)
+  if (handedness(cameraFromWorld) < 0)
     for (double& value : cameraFromWorld.m[2]) value = -value;
   return cameraFromWorld;
 }
@@ -125,8 +154,8 @@ Transform lookingAlongMinusZ(Transform cameraFromWorld) {
 // What worldToNDC says to a worldToCamera.
 NdcProjection projectionBy(const Transform& cameraFromWorld, const Transform& ndcFromWorld,
                            const ImageFile& file) {
-  return ndcProjection(ndcFromWorld * cameraFromWorld.inverse(), determinant(cameraFromWorld) < 0,
-                       aspectOf(file), columnOf(cameraFromWorld, 3).length());
+  return ndcProjection(ndcFromWorld * cameraFromWorld.inverse(), handedness(cameraFromWorld) < 0,
+                       aspectOf(file), placeOf(cameraFromWorld).length());
 }
 
 // The one of the orders in which worldToNDC is a projection, else the last one's fault.
@@ -149,8 +178,8 @@ void readNdc(const ImageFile& file, const Transform& toCamera, const Transform& 
     }
 }
 
-FrameCamera cameraOfStandard(const ImageFile& file, const Transform& toCamera,
-                             const Imf::M44fAttribute* toNdc) {
+FrameCamera cameraOfStandard(const ImageFile& file, const HeaderMatrix& toCamera,
+                             const std::optional<HeaderMatrix>& toNdc) {
   FrameCamera camera;
   camera.source = "the header's worldToCamera";
   const ReadMatrix read = readAffine(toCamera);
@@ -158,29 +187,42 @@ FrameCamera cameraOfStandard(const ImageFile& file, const Transform& toCamera,
     camera.problem = fmt::format("{} {}", camera.source, read.fault);
     return camera;
   }
-  camera.cameraFromWorld = byColumns(toCamera, read.byRows.front());
-  if (toNdc) readNdc(file, toCamera, asGiven(*toNdc), read.byRows, camera);
+  camera.cameraFromWorld = byColumns(toCamera.given, read.byRows.front());
+  if (toNdc && toNdc->fault.empty())
+    readNdc(file, toCamera.given, toNdc->given, read.byRows, camera);
+  else if (toNdc)
+    camera.clipProblem = fmt::format("the header's worldToNDC {}", toNdc->fault);
   if (read.byRows.size() > 1 && !camera.clipFromCamera) camera.doubt = doubtOrder(camera.source);
   camera.cameraFromWorld = lookingAlongMinusZ(camera.cameraFromWorld);
   return camera;
 }
 
-std::optional<Transform> clipOfAngle(double degrees, double aspect) {
-  if (!(degrees > 0) || !(degrees < 180)) return std::nullopt;
+// V-Ray's: `degrees` are those across.
+void readAngle(double degrees, double aspect, FrameCamera& camera) {
+  if (!(degrees > 0) || !(degrees < 180)) {
+    camera.clipProblem =
+        fmt::format("the header's cameraFov of {:.4g} degrees is no angle of view", degrees);
+    return;
+  }
   const double scale = 1 / std::tan(degrees * M_PI / 360);
-  return perspectiveClip(scale, scale * aspect, 0, 0);
+  const Transform clip = perspectiveClip(scale, scale * aspect, 0, 0);
+  const std::string fault = projectionFault(clip);
+  if (fault.empty())
+    camera.clipFromCamera = clip;
+  else
+    camera.clipProblem = fmt::format("the header's cameraFov {}", fault);
 }
 
-FrameCamera cameraOfVRay(const ImageFile& file, const Transform& given) {
+FrameCamera cameraOfVRay(const ImageFile& file, const HeaderMatrix& found) {
   FrameCamera camera;
   camera.source = "the header's cameraTransform";
-  ReadMatrix read = readAffine(given);
-  if (read.fault.empty() && determinant(given) < 0) read.fault = "mirrors";
+  ReadMatrix read = readAffine(found);
+  if (read.fault.empty() && handedness(found.given) < 0) read.fault = "mirrors";
   if (!read.fault.empty()) {
     camera.problem = fmt::format("{} {}", camera.source, read.fault);
     return camera;
   }
-  const Transform m = byColumns(given, read.byRows.front());
+  const Transform m = byColumns(found.given, read.byRows.front());
   Transform worldFromCamera;
   for (int row = 0; row < 3; ++row) {
     worldFromCamera.m[row][0] = m.m[row][0];
@@ -190,13 +232,13 @@ FrameCamera cameraOfVRay(const ImageFile& file, const Transform& given) {
   }
   camera.cameraFromWorld = worldFromCamera.inverse();
   if (read.byRows.size() > 1) camera.doubt = doubtOrder(camera.source);
-  const auto* projection = findIn<Imf::IntAttribute>(file, {"cameraProjection"});
-  const auto* angle = findIn<Imf::FloatAttribute>(file, {"cameraFov"});
+  const auto* projection = findIn<Imf::IntAttribute>(file, "cameraProjection");
+  const auto* angle = findIn<Imf::FloatAttribute>(file, "cameraFov");
   if (projection && projection->value() != 0)
     camera.clipProblem = fmt::format(
         "the header's cameraProjection is {}, which is no plain perspective", projection->value());
   else if (angle)
-    camera.clipFromCamera = clipOfAngle(angle->value(), aspectOf(file));
+    readAngle(angle->value(), aspectOf(file), camera);
   return camera;
 }
 
@@ -204,12 +246,9 @@ FrameCamera cameraOfVRay(const ImageFile& file, const Transform& given) {
 
 std::optional<FrameCamera> cameraOfHeader(const ImageFile& file) {
   if (!file.headers) return std::nullopt;
-  using Matrix = Imf::M44fAttribute;
-  if (const auto* found = findIn<Matrix>(file, {"worldToCamera", "worldtocamera"}))
-    return cameraOfStandard(file, asGiven(*found),
-                            findIn<Matrix>(file, {"worldToNDC", "worldtoNDC"}));
-  if (const auto* found = findIn<Matrix>(file, {"cameraTransform"}))
-    return cameraOfVRay(file, asGiven(*found));
+  if (const auto found = findMatrix(file, {"worldToCamera", "worldtocamera"}))
+    return cameraOfStandard(file, *found, findMatrix(file, {"worldToNDC", "worldtoNDC"}));
+  if (const auto found = findMatrix(file, {"cameraTransform"})) return cameraOfVRay(file, *found);
   return std::nullopt;
 }
 

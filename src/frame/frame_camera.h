@@ -34,6 +34,8 @@ struct FrameCamera {
 /// - `cameraTransform` and `cameraFov` (V-Ray): world from a camera space that looks along -y with
 ///   -z up, and the full horizontal angle in degrees. Of `cameraProjection` only 0 is perspective.
 ///
+/// Matrices of floats or doubles count. Where own parts (of a view, or of the files of a frame)
+/// have different ones, and where only the default view's header has one, that is a `problem`.
 /// What contradicts itself is a `problem`, never a guess; nothing is returned where no attribute of
 /// these names is a matrix.
 std::optional<FrameCamera> cameraOfHeader(const ImageFile& file);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "frame/camera_faults.h"
+
 namespace kagefude::detail {
 namespace {
 
@@ -114,8 +116,12 @@ NdcProjection ndcProjection(const Transform& ndcFromCamera, bool looksAlongZ, do
     return {std::nullopt, fmt::format("spans another shape than the display window (pixels {:.3g} "
                                       "times as wide as high)",
                                       pixels)};
-  if (!found.perspective) return {parallelClip(found), ""};
-  return {perspectiveClip(found.scaleX, found.scaleY, found.middleX, found.middleY), ""};
+  const Transform clip =
+      found.perspective ? perspectiveClip(found.scaleX, found.scaleY, found.middleX, found.middleY)
+                        : parallelClip(found);
+  const std::string unseen = projectionFault(clip);
+  if (!unseen.empty()) return {std::nullopt, unseen};
+  return {clip, ""};
 }
 
 }  // namespace kagefude::detail

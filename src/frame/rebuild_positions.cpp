@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "image/parallel.h"
@@ -31,18 +33,47 @@ V3d pointAt(const Transform& clip, double x, double y, double depth) {
   return {(e * d - b * f) / whole, (a * f - e * c) / whole, -depth};
 }
 
+template <class Counts>
+size_t countDepths(View<const float> depth, const Counts& counts) {
+  std::atomic<size_t> sum = 0;
+  parallelRows(depth.height, [&](int first, int end) {
+    size_t own = 0;
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < depth.width; ++x) own += counts(depth(x, y)) ? 1 : 0;
+    sum += own;
+  });
+  return sum;
+}
+
+size_t countSeen(View<const float> depth) {
+  return countDepths(depth, [](float d) { return !isBackground(d); });
+}
+
 void refuseNegative(View<const float> depth, const ImageFile& file) {
-  bool below = false;
-  for (int y = 0; y < depth.height; ++y)
-    for (int x = 0; x < depth.width; ++x) {
-      if (!isBackground(depth(x, y))) return;
-      below = below || depth(x, y) < 0;
-    }
-  if (below)
+  if (countSeen(depth) == 0 && countDepths(depth, [](float d) { return d < 0; }) > 0)
     throw InputError(fmt::format(
         "{} has no depth above 0, but some below; positions are rebuilt from depths that grow away "
         "from the camera (oiiotool --mulc -1 turns them round)",
         file.path.string()));
+}
+
+// Positions are floats of world space: far from its origin their steps swallow what a pixel shows.
+void refuseFarOrigin(View<const float> depth, const FrameCamera& camera,
+                     const Transform& worldFromCamera, const ImageFile& file) {
+  const auto& clip = *camera.clipFromCamera;
+  const V3d place = worldFromCamera.point({0, 0, 0});
+  const double step = place.length() * std::numeric_limits<float>::epsilon();
+  const double pixel = 2 / (std::abs(clip.m[0][0]) * file.displayWindow.width);
+  const bool perspective = isPerspective(clip);
+  const size_t swallowed = countDepths(depth, [&](float d) {
+    return !isBackground(d) && (perspective ? pixel * double{d} : pixel) < step;
+  });
+  if (2 * swallowed > countSeen(depth))
+    throw InputError(fmt::format(
+        "{}: {} stands {:.3g} units from the world's origin, where a float's steps of {:.2g} are "
+        "wider than most of the pixels, so positions cannot be rebuilt; move the scene nearer to "
+        "the origin, or say another camera with frame.camera_from_world",
+        file.path.string(), camera.source, place.length(), step));
 }
 
 }  // namespace
@@ -71,6 +102,7 @@ Vec3Plane rebuildPositions(View<const float> depth, const VectorSpaces& spaces,
   refuseNegative(depth, file);
   const Transform& clip = *spaces.camera->clipFromCamera;
   const Transform worldFromCamera = spaces.camera->cameraFromWorld.inverse();
+  refuseFarOrigin(depth, *spaces.camera, worldFromCamera, file);
   const bool ray = spaces.measuredAlong() == DepthKind::ray && isPerspective(clip);
   const Window &data = file.dataWindow, &display = file.displayWindow;
   Vec3Plane positions(depth.width, depth.height);

@@ -20,8 +20,9 @@ std::string rebuildFault(const VectorSpaces& spaces);
 /// (Blender writes 1e10, others infinity or 1e30) and give 0; NaN gives NaN.
 ///
 /// `file` says where the planes lie in the display window, which clip space spans. Throws
-/// InputError when no pixel has a depth above 0 though some are below, or the camera is not known
-/// whole. Cost: about 20 operations a pixel.
+/// InputError when no pixel has a depth above 0 though some are below, the camera is not known
+/// whole, or it stands so far from the world's origin that the floats there are farther apart than
+/// most of the pixels. Cost: about 20 operations a pixel.
 Vec3Plane rebuildPositions(View<const float> depth, const VectorSpaces& spaces,
                            const ImageFile& file);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "frame/camera_faults.h"
 #include "frame/normal_reading.h"
 #include "frame/seen_places.h"
 #include "image/parallel.h"
@@ -39,36 +40,39 @@ FrameCamera cameraOfLook(const AovNames& names) {
   FrameCamera camera;
   camera.source = "frame.camera_from_world";
   camera.cameraFromWorld = matrixFrom(names.cameraFromWorld);
-  const auto& m = camera.cameraFromWorld.m;
-  const V3d x(m[0][0], m[0][1], m[0][2]), y(m[1][0], m[1][1], m[1][2]),
-      z(m[2][0], m[2][1], m[2][2]);
-  const bool affine = m[3][0] == 0 && m[3][1] == 0 && m[3][2] == 0 && m[3][3] == 1;
-  if (!affine || (x.cross(y) - z).length() > 1e-3 || std::abs(x.length() - 1) > 1e-3 ||
-      std::abs(y.length() - 1) > 1e-3)
+  if (!rigidFault(camera.cameraFromWorld).empty() || handedness(camera.cameraFromWorld) < 0)
     throw LookError(
         "frame.camera_from_world is no turn and move of a right-handed space; it wants four rows "
         "of four numbers, the last row 0 0 0 1");
   return camera;
 }
 
+FrameCamera cameraOfJson(const Camera& json) {
+  FrameCamera camera;
+  camera.source = "the JSON's camera";
+  camera.cameraFromWorld = json.cameraFromWorld;
+  std::string fault = rigidFault(json.cameraFromWorld);
+  if (fault.empty() && handedness(json.cameraFromWorld) < 0) fault = "mirrors";
+  if (!fault.empty()) camera.problem = fmt::format("the JSON's camera_from_world {}", fault);
+  const std::string unseen = projectionFault(json.clipFromCamera);
+  if (unseen.empty())
+    camera.clipFromCamera = json.clipFromCamera;
+  else
+    camera.clipProblem = fmt::format("the JSON's clip_from_camera {}", unseen);
+  return camera;
+}
+
 Transform clipOfLook(const AovNames& names) {
   const Transform clip = matrixFrom(names.clipFromCamera);
-  const auto& w = clip.m[3];
-  const bool perspective = w[0] == 0 && w[1] == 0 && w[2] < 0 && w[3] == 0;
-  const bool parallel = w[0] == 0 && w[1] == 0 && w[2] == 0 && w[3] == 1;
-  if ((!perspective && !parallel) || clip.m[0][0] * clip.m[1][1] - clip.m[0][1] * clip.m[1][0] == 0)
-    throw LookError(
-        "frame.clip_from_camera is no projection of a camera that looks along -z; its last row is "
-        "0 0 -1 0, of a parallel one 0 0 0 1");
+  const std::string fault = projectionFault(clip);
+  if (!fault.empty()) throw LookError(fmt::format("frame.clip_from_camera {}", fault));
   return clip;
 }
 
 std::optional<FrameCamera> cameraOf(const AovNames& names, const ImageFile& file,
                                     const Camera* json) {
   std::optional<FrameCamera> camera = cameraOfHeader(file);
-  if (json)
-    camera =
-        FrameCamera{json->cameraFromWorld, json->clipFromCamera, "the JSON's camera", "", "", ""};
+  if (json) camera = cameraOfJson(*json);
   if (!names.cameraFromWorld.empty()) {
     FrameCamera own = cameraOfLook(names);
     // What a pixel looks along does not turn with the camera.

@@ -178,6 +178,55 @@ TEST_F(RebuiltFrame, NothingIsSeenWithoutDepth) {
   EXPECT_EQ(read().objectId(48, 40), 0u);
 }
 
+TEST_F(RebuiltFrame, RefusesADepthThatIsNoPlaceAnywhere) {
+  for (const float nowhere : {0.0f, 1e30f, INFINITY}) {
+    depth = Floats(eye.width, eye.height, nowhere);
+    expectContains(messageOf<InputError>([&] { read(); }),
+                   "f.exr: Z is no place (0, negative, or above 9e9) in all of the pixels");
+  }
+}
+
+TEST_F(RebuiltFrame, SaysWhereMuchDepthIsMissing) {
+  for (int y = eye.height / 2; y < eye.height; ++y)
+    for (int x = 0; x < eye.width; ++x) depth(x, y) = -depth(x, y);
+  const FramePlanes planes = read();
+  expectWarning(planes, "Z is no place (0, negative, or above 9e9) in ");
+  EXPECT_EQ(planes.objectId(48, 60), 0u);
+  EXPECT_NE(planes.objectId(48, 30), 0u);
+}
+
+TEST_F(RebuiltFrame, DepthThatIsNoNumberIsCounted) {
+  depth(48, 40) = std::nanf("");
+  const FramePlanes planes = read();
+  EXPECT_EQ(planes.badPixels, 1u);
+  EXPECT_EQ(planes.objectId(48, 40), 0u);
+}
+
+// The depth of a right eye and one header, which has the left eye's camera.
+TEST_F(RebuiltFrame, AskForTheOtherEyesCamera) {
+  const auto write = [&] {
+    Channels both;
+    for (const auto& [name, plane] : part.channels) {
+      const bool bare = name.find('.') == std::string::npos;
+      for (const char* view : {"left", "right"})
+        both.emplace(bare ? std::string(view) + "." + name
+                          : std::string(name).insert(name.rfind('.'), std::string(".") + view),
+                     plane);
+    }
+    PartSpec stereo = part;
+    stereo.channels = std::move(both);
+    writeParts(folder / "s.exr", eye.width, eye.height, {stereo}, {"left", "right"});
+  };
+  read();
+  write();
+  look.frame.view = "left";
+  planFrame(look, folder / "s.exr", 1);
+  look.frame.view = "right";
+  expectContains(messageOf<InputError>([&] { planFrame(look, folder / "s.exr", 1); }),
+                 "worldToCamera is not said to be that of the view right; say it with "
+                 "frame.camera_from_world");
+}
+
 // Normals and positions of the camera's space are turned by the header's camera alone.
 TEST_F(RebuiltFrame, TheHeadersCameraTurnsNormalsAndPositions) {
   for (int y = 0; y < eye.height; ++y)

@@ -1,4 +1,6 @@
 // One frame in two worlds, z up and y up, without a JSON: the same picture.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,30 +22,27 @@ class UpAxis : public ::testing::Test {
         rest.set(x, y, eye.position.view()(x, y) * 0.75f + V3f(0.25f, 0, 0.125f));
   }
 
-  static V3f standing(const V3f& v) { return {v.x, v.z, -v.y}; }
-  Vec3Plane standing(Vec3View planes) const {
-    Vec3Plane turned(eye.width, eye.height);
+  static V3f placed(bool yUp, const V3f& v) { return yUp ? V3f(v.x, v.z, -v.y) : v; }
+  Vec3Plane placed(bool yUp, Vec3View planes) const {
+    Vec3Plane result(eye.width, eye.height);
     for (int y = 0; y < eye.height; ++y)
-      for (int x = 0; x < eye.width; ++x) turned.set(x, y, standing(planes(x, y)));
-    return turned;
+      for (int x = 0; x < eye.width; ++x) result.set(x, y, placed(yUp, planes(x, y)));
+    return result;
   }
 
   // The lamp is behind the ball, to the left of it.
   FrameResult comp(bool yUp, const std::string& lookText) {
-    RenderedEye seen = eye;
-    Vec3Plane own = rest;
-    if (yUp) {
-      seen.position = standing(eye.position);
-      seen.normal = standing(eye.normal);
-      own = standing(rest);
-    }
+    RenderedEye seen = renderEye(0);
+    seen.position = placed(yUp, eye.position.view());
+    seen.normal = placed(yUp, eye.normal.view());
+    const Vec3Plane own = placed(yUp, rest.view());
     Channels channels = channelsOf(seen);
     channels.insert_or_assign("Pref.X", own.x);
     channels.insert_or_assign("Pref.Y", own.y);
     channels.insert_or_assign("Pref.Z", own.z);
     writeParts(folder / "f.exr", eye.width, eye.height,
                {{"", "", channels, {}, manifestOf("crypto_object")}});
-    const V3f lamp(-1, 6, 3), place = yUp ? standing(lamp) : lamp;
+    const V3f place = placed(yUp, V3f(-1, 6, 3));
     writeText(folder / "look.toml",
               lookText + "[[light]]\nname = \"Lamp\"\nmasks = [\"mask.0\", \"mask.1\"]\n" +
                   fmt::format("position = [{}, {}, {}]\n", place.x, place.y, place.z));

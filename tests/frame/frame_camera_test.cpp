@@ -26,6 +26,7 @@ class HeaderCamera : public ::testing::Test {
 
   FrameCamera camera() {
     file.ownParts = {0};
+    file.parts.resize(1);
     file.headers = std::make_shared<const std::vector<Imf::Header>>(1, header);
     const auto found = cameraOfHeader(file);
     EXPECT_TRUE(found);
@@ -189,6 +190,85 @@ TEST_F(HeaderCamera, ThatContradictsItselfIsAProblem) {
   expectContains(camera().problem, "not finite");
 }
 
+TEST_F(HeaderCamera, ThatLiesIsAProblem) {
+  display(200, 100);
+  matrix("worldToCamera", M44f(0.0f));
+  expectContains(camera().problem, "worldToCamera has no row or column 0 0 0 1");
+  M44f flat = standing;
+  for (int row = 0; row < 3; ++row) flat[row][1] = 0;
+  matrix("worldToCamera", flat);
+  expectContains(camera().problem, "worldToCamera scales by 0");
+  M44f skewed = standing;
+  skewed[0][1] = 0.2f;
+  matrix("worldToCamera", skewed);
+  EXPECT_NE(camera().problem, "");
+  matrix("worldToCamera", M44f(INFINITY));
+  expectContains(camera().problem, "not finite");
+  matrix("worldToCamera", standing);
+  matrix("worldToNDC", M44f(std::nanf("")));
+  expectContains(camera().clipProblem, "the header's worldToNDC is no projection");
+  matrix("worldToNDC", M44f(0.0f));
+  expectContains(camera().clipProblem, "the header's worldToNDC is no projection");
+}
+
+TEST_F(HeaderCamera, MayBeOfDoubles) {
+  display(200, 100);
+  header.insert("worldToCamera", Imf::M44dAttribute(Imath::M44d(standing)));
+  header.insert("worldToNDC", Imf::M44dAttribute(Imath::M44d(standing * unitDown)));
+  expectPoint(camera(), {1, 2, 3}, {1, 3, -12});
+  expectClip(camera(), 1, 2);
+}
+
+TEST_F(HeaderCamera, OfVRayHasAnAngle) {
+  display(200, 100);
+  matrix("cameraTransform", M44f());
+  for (const float angle : {0.0f, -20.0f, 180.0f, std::nanf(""), INFINITY}) {
+    header.insert("cameraFov", Imf::FloatAttribute(angle));
+    EXPECT_FALSE(camera().clipFromCamera);
+    expectContains(camera().clipProblem, "degrees is no angle of view");
+  }
+  header.insert("cameraFov", Imf::FloatAttribute(1e-6f));
+  EXPECT_FALSE(camera().clipFromCamera);
+  expectContains(camera().clipProblem, "the header's cameraFov sees 1e-06 by 5e-07 degrees");
+  matrix("cameraTransform", M44f(1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1));
+  expectContains(camera().problem, "cameraTransform mirrors");
+}
+
+TEST_F(HeaderCamera, OfPartsThatDisagreeIsAProblem) {
+  display(200, 100);
+  matrix("worldToCamera", standing);
+  Imf::Header other = header;
+  M44f moved = standing;
+  moved[3][0] = 1;
+  other.insert("worldToCamera", Imf::M44fAttribute(moved));
+  file.ownParts = {0, 1};
+  file.parts.resize(2);
+  file.parts[0].name = "beauty";
+  file.parts[1].file = "shots/shot.depth.exr";
+  const auto of = [&](const Imf::Header& second) {
+    file.headers =
+        std::make_shared<const std::vector<Imf::Header>>(std::vector<Imf::Header>{header, second});
+    return cameraOfHeader(file)->problem;
+  };
+  EXPECT_EQ(of(header), "");
+  EXPECT_EQ(of(other),
+            "the header's worldToCamera is another one in shot.depth.exr than in beauty");
+}
+
+// One header for the views of both eyes has one eye's camera.
+TEST_F(HeaderCamera, OfAnotherViewIsAProblem) {
+  display(200, 100);
+  matrix("worldToCamera", standing);
+  file.views = {"left", "right"};
+  file.view = "left";
+  EXPECT_EQ(camera().problem, "");
+  file.view = "right";
+  EXPECT_EQ(camera().problem,
+            "the header's worldToCamera is not said to be that of the view right");
+  file.parts[0].view = "right";
+  EXPECT_EQ(camera().problem, "");
+}
+
 TEST_F(HeaderCamera, RefusesAnNdcThatItCannotTell) {
   display(200, 100);
   matrix("worldToCamera", standing);
@@ -202,6 +282,10 @@ TEST_F(HeaderCamera, RefusesAnNdcThatItCannotTell) {
   expectContains(problemOf(M44f(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0)), "another shape");
   expectContains(problemOf(M44f(1, 0, 0, 0, 0, 2, 0, 0, .25f, .25f, 1, 1, 0, 0, 0, 0)),
                  "middle of neither");
+  expectContains(problemOf(M44f(1e7f, 0, 0, 0, 0, 2e7f, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0)),
+                 "which no picture does");
+  expectContains(problemOf(M44f(1e-5f, 0, 0, 0, 0, 2e-5f, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0)),
+                 "sees 180 by 180 degrees");
   expectContains(problemOf(M44f(1, .2f, 0, 0, 0, 2, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0)),
                  "no projection");
 }

@@ -106,6 +106,50 @@ TEST(RebuildPositions, NegativeDepthsAreRefused) {
   expectContains(messageOf<InputError>([&] { view.rebuild(); }), "f.exr has no depth above 0");
 }
 
+TEST(RebuildPositions, FewDepthsMayBeNegative) {
+  SmallView view;
+  view.depth(0, 0) = -3;
+  EXPECT_EQ(view.rebuild().view()(0, 0), V3f(0.0f));
+  view.expectAt(view.rebuild(), 1, 1, {1, -1, -2});
+}
+
+// A pixel is 2 wide there, as a float's step is at 2^24.
+TEST(RebuildPositions, FarFromTheOriginAreRefused) {
+  SmallView view;
+  Transform& cameraFromWorld = view.spaces.camera->cameraFromWorld;
+  cameraFromWorld.m[0][3] = -1.5e7;
+  view.rebuild();
+  cameraFromWorld.m[0][3] = -2e7;
+  expectContains(messageOf<InputError>([&] { view.rebuild(); }),
+                 "f.exr: a test stands 2e+07 units from the world's origin");
+  view.depth(1, 1) = 1e10f;
+  view.depth(0, 0) = 100;
+  view.depth(1, 0) = 100;
+  view.rebuild();
+  cameraFromWorld.m[0][3] = -3e38;
+  expectContains(messageOf<InputError>([&] { view.rebuild(); }), "3e+38 units");
+}
+
+TEST(RebuildPositions, RefuseAJsonsCameraThatIsNone) {
+  SmallView view;
+  Camera json;
+  json.clipFromCamera = detail::perspectiveClip(1, 1, 0, 0);
+  const auto fault = [&] { return rebuildFault(vectorSpaces({}, view.file, &json)); };
+  EXPECT_EQ(fault(), "");
+  json.cameraFromWorld.m[3][3] = 0.9999999;  // an inverse of floats
+  EXPECT_EQ(fault(), "");
+  json.cameraFromWorld.m[0][0] = 0;
+  expectContains(fault(), "the JSON's camera_from_world scales by 0");
+  json.cameraFromWorld.m[0][0] = -1;
+  expectContains(fault(), "the JSON's camera_from_world mirrors");
+  json.cameraFromWorld.m[0][0] = 1;
+  json.clipFromCamera.m[1][1] = 0;
+  expectContains(fault(), "the JSON's clip_from_camera shows a line or a point");
+  json.clipFromCamera.m[1][1] = 1;
+  json.clipFromCamera.m[3][2] = 1;
+  expectContains(fault(), "the JSON's clip_from_camera is no projection");
+}
+
 TEST(RebuildPositions, SayWhatTheyLack) {
   VectorSpaces spaces;
   expectContains(rebuildFault(spaces), "no camera is known");
