@@ -23,6 +23,11 @@ namespace {
   throw InputError(fmt::format("{}: {}", plan.image.path.string(), fault));
 }
 
+bool isHalf(const ImageFile& file, const Aov& depth) {
+  const Channel* channel = file.findChannel(depth.channels.at(0));
+  return channel && channel->type == PixelType::half;
+}
+
 }  // namespace
 
 void planPositions(const AovNames& names, FramePlan& plan) {
@@ -37,9 +42,13 @@ void planPositions(const AovNames& names, FramePlan& plan) {
   plan.position = *depth;
   plan.spaces.rebuilt = true;
   plan.warnings.push_back(
-      fmt::format("there is no Position pass; positions are rebuilt from {}, taken as {}, and {}",
+      fmt::format("there is no Position pass; positions are rebuilt from {}, taken as {}, and {}{}",
                   depth->name, depthKindNames[static_cast<size_t>(plan.spaces.measuredAlong())],
-                  plan.spaces.camera->source));
+                  plan.spaces.camera->source,
+                  isHalf(plan.image, *depth)
+                      ? "; it is of half precision, whose steps of a two-thousandth roughen "
+                        "penumbras: render it as float"
+                      : ""));
 }
 
 void requestPositions(ChannelReader& reader, const FramePlan& plan, PositionPass& pass) {

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "compositor/casting_scene.h"
+#include "compositor/doubt_bounds.h"
 #include "compositor/position_pass.h"
 #include "compositor/rest_pass.h"
 #include "exr/read_channels.h"
@@ -107,6 +108,8 @@ void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
   if (doubt.known)
     throw InputError(fmt::format("{}: {}", plan.image.path.string(), doubt.sentence));
   if (!doubt.sentence.empty()) planes.warnings.push_back(doubt.sentence);
+  if (std::string outside = doubtBounds(plan, planes); !outside.empty())
+    planes.warnings.push_back(std::move(outside));
 }
 
 /// Where an object is not painted, the beauty stands: cut, or with what lies behind it.

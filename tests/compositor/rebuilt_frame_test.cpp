@@ -4,6 +4,7 @@
 
 #include "compositor/read_frame.h"
 #include "compositor/rendered_eye.h"
+#include "compositor/test_frame.h"
 #include "frame/frame_fixtures.h"
 
 namespace kagefude {
@@ -225,6 +226,48 @@ TEST_F(RebuiltFrame, AskForTheOtherEyesCamera) {
   expectContains(messageOf<InputError>([&] { planFrame(look, folder / "s.exr", 1); }),
                  "worldToCamera is not said to be that of the view right; say it with "
                  "frame.camera_from_world");
+}
+
+// Without normals' help: the ball's and the floor's bounds of the JSON show depth in other units.
+TEST_F(RebuiltFrame, SaysThatDepthIsInOtherUnits) {
+  const M44f m = toCamera();
+  nlohmann::json fromWorld;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      fromWorld[row][column] = m[column][row] * (row == 2 ? -1.0f : 1.0f);
+  const auto object = [](const char* name, const V3f& low, const V3f& high) {
+    return nlohmann::json{{"name", name},
+                          {"world_from_object", identityRows()},
+                          {"bounds", {{"min", pointOf(low)}, {"max", pointOf(high)}}},
+                          {"reference_point", {0, 0, 0}}};
+  };
+  const nlohmann::json sidecar = {
+      {"kagefude", 1},
+      {"frame", 1},
+      {"fps", 24},
+      {"resolution", {eye.width, eye.height}},
+      {"camera",
+       {{"type", "perspective"},
+        {"position", pointOf(V3f(eye.eye))},
+        {"direction", pointOf(V3f(eye.ahead))},
+        {"camera_from_world", fromWorld},
+        {"clip_from_camera", {{1.5, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, -1, -0.2}, {0, 0, -1, 0}}}}},
+      {"lights", nlohmann::json::array()},
+      {"objects",
+       {object("Ball", {-1, -1, 0}, {1, 1, 2}), object("Floor", {-9, -9, 0}, {9, 9, 0})}}};
+  writeText(folder / "f.json", sidecar.dump());
+  EXPECT_EQ(read().warnings.size(), 1u);
+  const auto scaled = [&](float factor) {
+    planar();
+    for (int y = 0; y < eye.height; ++y)
+      for (int x = 0; x < eye.width; ++x)
+        if (depth(x, y) < 1e9f) depth(x, y) *= factor;
+    return read();
+  };
+  expectWarning(scaled(100), "of the rebuilt positions lie in the bounds that the JSON gives");
+  expectWarning(scaled(100), "if the depth were 0.01 times as large; it counts in the world's");
+  expectWarning(scaled(0.0254f), "if the depth were 39.37 times as large");
+  expectWarning(scaled(2), "so the depth or the JSON's camera is not what it is taken for");
 }
 
 // Normals and positions of the camera's space are turned by the header's camera alone.

@@ -94,6 +94,12 @@ comp ray/shot.0001.exr ray.exr 2>error && fail "ray depth was taken as planar" |
   { grep -q 'set frame.depth_kind = "ray"' error && pass || fail "ray depth: $(cat error)"; }
 near ray "ray, and the JSON's camera" --set frame.depth_kind=ray
 
+# Depth of half precision, and in centimetres, is said to be so.
+folder cm && quiet depth/shot.0001.exr --ch data.Depth.V --mulc 100 -d half -o cm/depth.exr
+quiet depth/shot.0001.exr --ch "${others/,data.Depth.V/}" cm/depth.exr --chappend -d data.Depth.V=half -o cm/shot.0001.exr
+"$kagefude" comp look.toml cm/shot.0001.exr -o cm.exr --progress plain 2>error
+grep -q 'if the depth were 0.01 times as large' error && grep -q 'of half precision' error && pass || fail "centimetres: $(cat error)"
+
 # TIFFs beside an EXR beauty: bare R, G, B under the layers that the look names.
 folder tiffs
 cp files/shot.0001.exr tiffs/
