@@ -20,7 +20,7 @@ struct FramePlan {
   ImageFile image;
   std::optional<Sidecar> sidecar;
   std::vector<FrameLight> lights;
-  Aov position, normal;
+  Aov position, normal;  ///< position: the depth, where `spaces` says that it is rebuilt
   VectorSpaces spaces;
   std::optional<Aov> albedo, beauty;
   std::optional<Aov> rest, uv, instanceRandom;  ///< only where strokes ask for them

@@ -7,10 +7,13 @@
 
 #include "base/error.h"
 #include "compositor/casting_scene.h"
+#include "compositor/doubt_bounds.h"
+#include "compositor/position_pass.h"
 #include "compositor/rest_pass.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
+#include "frame/rebuild_positions.h"
 #include "frame/sanitise.h"
 #include "image/parallel.h"
 
@@ -96,11 +99,17 @@ void clearOutside(const FramePlan& plan, FramePlanes& planes) {
 
 /// A reading that the look can set stops the frame; what nothing explains is said.
 void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
-  const SpaceDoubt doubt =
+  SpaceDoubt doubt =
       doubtSpaces(plan.spaces, plan.image, planes.position, planes.normal, planes.objectId);
+  if (!doubt.known) {
+    SpaceDoubt nearer = doubtDepth(plan.spaces, planes.position, planes.normal, planes.objectId);
+    if (!nearer.sentence.empty()) doubt = std::move(nearer);
+  }
   if (doubt.known)
     throw InputError(fmt::format("{}: {}", plan.image.path.string(), doubt.sentence));
   if (!doubt.sentence.empty()) planes.warnings.push_back(doubt.sentence);
+  if (std::string outside = doubtBounds(plan, planes); !outside.empty())
+    planes.warnings.push_back(std::move(outside));
 }
 
 void clearIds(const std::set<uint32_t>& unpainted, View<uint32_t> ids) {
@@ -130,7 +139,8 @@ void clearUnpainted(const FramePlan& plan, FramePlanes& planes) {
 FramePlanes readFramePlanes(const FramePlan& plan) {
   FramePlanes planes;
   ChannelReader reader(plan.image);
-  requestVector(reader, plan.position, planes.position);
+  PositionPass positions;
+  requestPositions(reader, plan, positions);
   requestVector(reader, plan.normal, planes.normal);
   if (plan.albedo) requestVector(reader, *plan.albedo, planes.albedo);
   Floats restAlpha;
@@ -173,6 +183,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
       reader.floats(plan.lights[i].tracedChannel, traced[i]);
   reader.read();
 
+  planes.position = takePositions(plan, positions);
   planes.width = planes.position.x.width();
   planes.height = planes.position.x.height();
   for (size_t i = 0; i < plan.lights.size(); ++i) {
@@ -203,6 +214,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
+  clearWithoutDepth(plan, planes);
   clearUnpainted(plan, planes);
   checkSpaces(plan, planes);
   return planes;
