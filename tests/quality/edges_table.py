@@ -3,6 +3,10 @@
 lays crops side by side: one sample, the truth, two by two samples. Called by edges.sh:
 
     edges_table.py FOLDER SCENE ...
+
+The large picture is brought down twice: through a box, each pixel the mean of its own 64, and
+through Blender's own pixel filter (Blackman-Harris, which for Cycles' width of 1.5 reaches over
+three pixels), by which the beauty and the Cryptomattes of all sizes are filtered.
 """
 
 import os
@@ -92,6 +96,32 @@ def picture(folder, scene, scale):
     return np.stack([planes[name] for name in "RGBA"], axis=2)
 
 
+def box(offset):
+    return (np.abs(offset) < 0.5).astype(float)
+
+
+def blackman_harris(offset):
+    turn = 2 * np.pi * (offset / 3 + 0.5)
+    value = 0.35875 - 0.48829 * np.cos(turn) + 0.14128 * np.cos(2 * turn) - 0.01168 * np.cos(3 * turn)
+    return np.where(np.abs(offset) < 1.5, value, 0.0)
+
+
+def brought_down(plane, weight):
+    """The large picture through a separable filter, in linear light."""
+    reach = SCALE * 3 // 2
+    places = np.arange(-reach, reach) + 0.5
+    weights = weight(places / SCALE)
+    for axis in (0, 1):
+        pad = [(0, 0)] * plane.ndim
+        pad[axis] = (reach, reach)
+        padded, count, total = np.pad(plane, pad, mode="edge"), plane.shape[axis] // SCALE, 0
+        for place, share in zip(places, weights / weights.sum()):
+            first = int(reach + SCALE / 2 + place - 0.5)
+            total = total + share * np.take(padded, range(first, first + SCALE * count, SCALE), axis)
+        plane = total
+    return plane
+
+
 def oiio(*words):
     subprocess.run(["oiiotool", *map(str, words)], check=True)
 
@@ -104,29 +134,38 @@ def side_by_side(folder, scene, error):
     top, left = np.unravel_index(inside.argmax(), inside.shape)
     words = []
     for scale in (1, SCALE, 2):
-        words += [os.path.join(folder, scene, f"comp{scale}.exr"), "--ch", "R,G,B",
-                  "--cut", f"{wide}x{high}+{left}+{top}",
+        words += [os.path.join(folder, scene, f"comp{scale}.exr"), "--ch", "R,G,B"]
+        if scale == SCALE:
+            words += ["--resize:filter=box", f"{error.shape[1]}x{error.shape[0]}"]
+        words += ["--cut", f"{wide}x{high}+{left}+{top}",
                   "--resize:filter=box", f"{wide * ZOOM}x{high * ZOOM}"]
     oiio(*words, "--mosaic:pad=6", "3x1", "--colorconvert", "linear", "sRGB",
          "-o", os.path.join(folder, scene, "side_by_side.png"))
 
 
+def rmse(error, where):
+    return np.sqrt((error[where][:, :3] ** 2).mean())
+
+
 def main(folder, scenes):
-    print(f"{'scene':16} {'kind':11} {'pixels':>7}  {'one':>7} {'two':>7}   RMSE, linear light")
+    print(f"{'RMSE in linear light':36} {'box':>15} {'own filter':>15}")
+    print(f"{'scene':16} {'kind':11} {'pixels':>7} {'one':>7} {'two':>7} {'one':>7} {'two':>7}")
     for scene in scenes:
         kinds = remembered(folder, scene)
-        truth = picture(folder, scene, SCALE)
-        errors = {scale: picture(folder, scene, scale) - truth for scale in (1, 2)}
+        large = picture(folder, scene, SCALE)
+        small = {scale: picture(folder, scene, scale) for scale in (1, 2)}
+        errors = [small[scale] - truth for truth in (brought_down(large, box),
+                                                     brought_down(large, blackman_harris))
+                  for scale in (1, 2)]
         for number, kind in enumerate(KINDS):
             here = kinds == number
-            if here.sum() < 20:
-                continue
-            one, two = (np.sqrt((errors[scale][here][:, :3] ** 2).mean()) for scale in (1, 2))
-            print(f"{scene:16} {kind:11} {here.sum():7}  {one:7.4f} {two:7.4f}")
+            if here.sum() >= 20:
+                print(f"{scene:16} {kind:11} {here.sum():7}",
+                      *(f"{rmse(error, here):7.4f}" for error in errors))
         if scene.startswith("rim_"):
-            alpha = {scale: np.abs(errors[scale][..., 3]).max() for scale in (1, 2)}
-            print(f"{scene:16} {'alpha, worst':19}  {alpha[1]:7.4f} {alpha[2]:7.4f}")
-        side_by_side(folder, scene, np.sqrt((errors[1][..., :3] ** 2).mean(axis=2)))
+            print(f"{scene:16} {'alpha, worst':19}",
+                  *(f"{np.abs(error[..., 3]).max():7.4f}" for error in errors))
+        side_by_side(folder, scene, np.sqrt((errors[2][..., :3] ** 2).mean(axis=2)))
 
 
 if __name__ == "__main__":

@@ -121,22 +121,18 @@ class InnerEdges {
     for (double& share : shares) share *= scale;
   }
 
-  /// The contour of the pixel's own surface beside it toward `side`, followed to `along`: what lies
-  /// beyond it may change, as it does behind a rim a pixel wide.
+  /// The run of edges beside a pixel toward `side`, on to `along`.
   RunEnd follow(int x, int y, Step side, Step along) const {
     RunEnd end;
     for (; end.pixels < longestRun; ++end.pixels) {
-      if (edge(x, y, along)) {
-        end.turn = 1;
+      const bool own = edge(x, y, along), other = edge(x + side.x, y + side.y, along);
+      const bool on = edge(x + along.x, y + along.y, side);
+      if (own || other || !on) {
+        end.turn = on || own == other ? 0 : own ? 1 : -1;
         return end;
       }
       x += along.x;
       y += along.y;
-      if (!s_.ids.contains(x, y)) return end;
-      if (!edge(x, y, side)) {
-        end.turn = -1;
-        return end;
-      }
     }
     return end;
   }

@@ -8,14 +8,14 @@ namespace kagefude {
 namespace {
 
 // A camera at the origin that looks along -z, 100 pixels wide; a point's pixel is exact.
-CameraRays perspective() {
+CameraRays perspectiveRays() {
   CameraRays rays;
   rays.direction0 = {-0.5, 0.5, -1};
   rays.directionX = {0.01, 0, 0};
   rays.directionY = {0, -0.01, 0};
   return rays;
 }
-CameraRays parallel() {
+CameraRays parallelRays() {
   CameraRays rays;
   rays.orthographic = true;
   rays.origin0 = {-0.5, 0.5, 0};
@@ -55,7 +55,7 @@ void expectCrease(const CameraRays& rays, const V3d& left, const V3d& right) {
 }
 
 TEST(CreaseLine, ConvexAndHollowInBothProjections) {
-  for (const CameraRays& rays : {perspective(), parallel()}) {
+  for (const CameraRays& rays : {perspectiveRays(), parallelRays()}) {
     expectCrease(rays, V3d(-1, 0.2, 1), V3d(1, 0.1, 0.8));
     expectCrease(rays, V3d(1, 0.2, 1), V3d(-1, 0.1, 0.8));
     expectCrease(rays, V3d(1, -0.2, -1), V3d(-1, 0.3, 0.5));
@@ -63,7 +63,7 @@ TEST(CreaseLine, ConvexAndHollowInBothProjections) {
 }
 
 TEST(CreaseLine, NothingWhereOneSurfaceHidesTheOther) {
-  const CameraRays rays = perspective();
+  const CameraRays rays = perspectiveRays();
   const V3d facing(0, 0, 1);
   const SurfacePoint near{hit(rays, 50, 49, {0, 0, -2}, facing), facing};
   const SurfacePoint far{hit(rays, 51, 49, {0, 0, -3}, facing), facing};
@@ -72,7 +72,7 @@ TEST(CreaseLine, NothingWhereOneSurfaceHidesTheOther) {
 }
 
 TEST(CreaseLine, NothingOfSurfacesEdgeOnOrNotFinite) {
-  const CameraRays rays = perspective();
+  const CameraRays rays = perspectiveRays();
   const SurfacePoint good{{0, 0, -2}, {0, 0, 1}};
   EXPECT_FALSE(creaseLine(good, {{0.02, 0, -2}, {0, 0, 0}}, rays, 49, 49, 1, 0));
   EXPECT_FALSE(creaseLine(good, {{std::nan(""), 0, -2}, {0, 0, 1}}, rays, 49, 49, 1, 0));

@@ -107,6 +107,20 @@ TEST(InnerEdges, AStepsStaircaseIsMadeALine) {
   }
 }
 
+// Its tangent planes meet the floor about where it ends.
+TEST(InnerEdges, ABallsOutlineIsNotMadeWorse) {
+  const auto beside = [](double x, double y) { return std::hypot(x - 12.2, y - 11.7) / 8.3; };
+  Picture picture{[=](double x, double y) {
+                    const double r = std::min(beside(x, y), 1.0);
+                    return 8.3 * std::sqrt(1 - r * r);
+                  },
+                  [](double, double) { return 0.0; },
+                  [=](double x, double y) { return beside(x, y) < 1; }};
+  const float before = picture.error();
+  picture.blend();
+  EXPECT_LT(picture.error(), before);
+}
+
 TEST(InnerEdges, ACornerOfThreeSidesIsCutByAll) {
   // A corner from above: a white top and two black sides.
   const auto top = [](double x, double y) { return x - 12.3 > 0 && y - 11.6 > 0; };
