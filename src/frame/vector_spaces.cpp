@@ -47,13 +47,17 @@ FrameCamera cameraOfLook(const AovNames& names) {
   return camera;
 }
 
-FrameCamera cameraOfJson(const Camera& json) {
+// It describes one camera: of a file with views, the default one.
+FrameCamera cameraOfJson(const Camera& json, const ImageFile& file) {
   FrameCamera camera;
   camera.source = "the JSON's camera";
   camera.cameraFromWorld = json.cameraFromWorld;
   std::string fault = rigidFault(json.cameraFromWorld);
   if (fault.empty() && handedness(json.cameraFromWorld) < 0) fault = "mirrors";
   if (!fault.empty()) camera.problem = fmt::format("the JSON's camera_from_world {}", fault);
+  if (file.views.size() > 1 && file.view != file.views.front())
+    camera.problem =
+        fmt::format("the JSON's camera is not said to be that of the view {}", file.view);
   const std::string unseen = projectionFault(json.clipFromCamera);
   if (unseen.empty())
     camera.clipFromCamera = json.clipFromCamera;
@@ -72,7 +76,11 @@ Transform clipOfLook(const AovNames& names) {
 std::optional<FrameCamera> cameraOf(const AovNames& names, const ImageFile& file,
                                     const Camera* json) {
   std::optional<FrameCamera> camera = cameraOfHeader(file);
-  if (json) camera = cameraOfJson(*json);
+  if (json) {
+    FrameCamera described = cameraOfJson(*json, file);
+    if (described.problem.empty() || !camera || !camera->problem.empty())
+      camera = std::move(described);
+  }
   if (!names.cameraFromWorld.empty()) {
     FrameCamera own = cameraOfLook(names);
     // What a pixel looks along does not turn with the camera.

@@ -30,8 +30,9 @@ struct VectorSpaces {
 };
 
 /// The look's settings and the frame's camera: the look's own, else `json`'s (null: none), else the
-/// header's. LookError when normal_axes are not x, y and z, each once, each with an optional minus,
-/// or the look's matrices are no camera.
+/// header's; a JSON's that is none, or of another view, stands behind the header's. LookError when
+/// normal_axes are not x, y and z, each once, each with an optional minus, or the look's matrices
+/// are no camera.
 VectorSpaces vectorSpaces(const AovNames& names, const ImageFile& file, const Camera* json);
 
 /// The camera, or an InputError that says why there is none; `needs` says what for.

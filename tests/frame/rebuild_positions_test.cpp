@@ -150,6 +150,19 @@ TEST(RebuildPositions, RefuseAJsonsCameraThatIsNone) {
   expectContains(fault(), "the JSON's clip_from_camera is no projection");
 }
 
+// A JSON has one camera, whatever views a file has.
+TEST(RebuildPositions, AskForTheOtherEyesCamera) {
+  SmallView view;
+  Camera json;
+  json.clipFromCamera = detail::perspectiveClip(1, 1, 0, 0);
+  view.file.views = {"left", "right"};
+  view.file.view = "left";
+  EXPECT_EQ(rebuildFault(vectorSpaces({}, view.file, &json)), "");
+  view.file.view = "right";
+  expectContains(rebuildFault(vectorSpaces({}, view.file, &json)),
+                 "the JSON's camera is not said to be that of the view right");
+}
+
 TEST(RebuildPositions, SayWhatTheyLack) {
   VectorSpaces spaces;
   expectContains(rebuildFault(spaces), "no camera is known");
