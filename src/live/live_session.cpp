@@ -12,18 +12,6 @@
 #include "look/write_look.h"
 
 namespace kagefude {
-namespace {
-
-/// The look as the page asks for it. It may be saved later, so it counts as an output.
-Look readAsked(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  const LooksAtOutputs looking;
-  Look look = readLook(path, overrides);
-  refuseForeignPaths(readLook(path, {}), look);
-  return look;
-}
-
-}  // namespace
-
 LiveSession::LiveSession(Settings settings) : settings_(std::move(settings)) {
   if (settings_.inputs.empty()) throw InputError("there is no frame to show");
   waiting_ = LiveChange{};
@@ -53,8 +41,15 @@ uint64_t LiveSession::change(LiveChange wanted) {
   return ++changes_;
 }
 
+Look LiveSession::readOnDisk(const std::vector<std::string>& overrides) const {
+  const LooksAtOutputs looking;
+  Look look = readLook(settings_.look, overrides);
+  if (!overrides.empty()) refuseForeignPaths(readLook(settings_.look, {}), look);
+  return look;
+}
+
 std::vector<std::string> LiveSession::save(const std::vector<std::string>& overrides) const {
-  readAsked(settings_.look, overrides);
+  readOnDisk(overrides);
   return saveLook(settings_.look, overrides);
 }
 
@@ -121,7 +116,7 @@ void LiveSession::answer(bool whole) {
   sharp_ = true;  // after an error there is nothing to sharpen
   files_ = filesNow();
   try {
-    const Look look = readAsked(settings_.look, now_.overrides);
+    const Look look = readOnDisk(now_.overrides);
     strips_.clear();
     for (const StyleLook& style : look.styles)
       if (!isBuiltinStrip(style.style.strip)) strips_.push_back(look.resolve(style.style.strip));

@@ -64,6 +64,11 @@ class LiveSession {
   /// InputError when there is no such input.
   uint64_t change(LiveChange wanted);
 
+  /// The look as its file is now, with overrides of the page. It may be saved later, so reading it
+  /// does not count as reading an input. Throws LookError, also for files that the page may not
+  /// name (refuseForeignPaths).
+  Look readOnDisk(const std::vector<std::string>& overrides) const;
+
   /// Writes overrides into the look's file (saveLook), which is then watched like any edit. Gives
   /// the overrides that bring back what was there. Throws as saveLook, and LookError for files that
   /// the page may not name.
