@@ -156,7 +156,8 @@ TEST_F(Session, ThePageIsAnsweredOrRefusedInWords) {
     return answerPage(session, {.method = method, .path = path, .body = body}).status;
   };
   for (const char* path :
-       {"/", "/main.js", "/link.js", "/viewer.js", "/knobs.js", "/style.css", "/tables"})
+       {"/", "/main.js", "/link.js", "/viewer.js", "/knobs.js", "/history.js", "/strips.js",
+        "/own_entry.js", "/light_drag.js", "/style.css", "/tables", "/strips"})
     EXPECT_EQ(ask("GET", path, ""), 200) << path;
   for (const char* path : {"/look.toml", "/main.js/", "/page/main.js", ""})
     EXPECT_EQ(ask("GET", path, ""), 404) << path;

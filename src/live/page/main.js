@@ -2,7 +2,7 @@
 import { History } from './history.js';
 import { Knobs } from './knobs.js';
 import { Changes, Pictures, pictureNow, probe, save, tables } from './link.js';
-import { ownStyle } from './own_style.js';
+import { ownLight, ownStyle } from './own_entry.js';
 import { draggedLight } from './light_drag.js';
 import { Viewer } from './viewer.js';
 
@@ -74,9 +74,8 @@ async function clicked(x, y) {
   if (found.object === null) return;
   at('picked-name').textContent = found.object;
   at('own').onclick = () => {
-    const number = state.values.style.length;
-    wantedScope = `style ${number}`;
-    history.add(null, ownStyle(found, state.values, list, number));
+    wantedScope = `style ${state.values.style.length}`;
+    history.add(null, ownStyle(found, state.values, list));
     at('picked').hidden = true;
   };
   if (found.style === undefined) return;
@@ -93,10 +92,11 @@ function takeLight() {
   const known = state.values.light.findIndex((own) => own.light.name === light.name);
   const number = known < 0 ? state.values.light.length : known;
   const prefix = `light[${number}].`;
+  const own = ownLight(light.name, state.values, list);
   return (across, down) => {
     const keys = draggedLight(light, axes, across, down).map(([key, text]) => [prefix + key, text]);
     if (known >= 0) history.setAll(prefix, keys);
-    else history.add(prefix, [[`${prefix}name`, JSON.stringify(light.name)], ...keys]);
+    else history.add(prefix, [...own, ...keys]);
   };
 }
 
