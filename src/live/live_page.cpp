@@ -112,6 +112,7 @@ Json describe(const LiveSession& session, const LiveView& view) {
   const LivePicture& picture = *view.picture;
   state["input"] = view.input;
   state["step"] = picture.step;
+  state["onDisk"] = {{"style", view.stylesOnDisk}, {"light", view.lightsOnDisk}};
   state["painted"] = {picture.stages.planes->width, picture.stages.planes->height};
   state["stages"] = stageNames(picture);
   const Colour& colour = *picture.colour;
@@ -165,7 +166,7 @@ HttpResponse strips(const LiveSession& session) {
 
 HttpResponse strip(const LiveSession& session, const HttpRequest& request) {
   const ShownPixels pixels =
-      showStrip(*pictureNow(session), session.readOnDisk({}), textOf(request, "name"));
+      showStrip(*pictureNow(session), session.readAsked({}).onDisk, textOf(request, "name"));
   return withPixels({{"size", {pixels.width, pixels.height}}}, pixels);
 }
 

@@ -41,15 +41,15 @@ uint64_t LiveSession::change(LiveChange wanted) {
   return ++changes_;
 }
 
-Look LiveSession::readOnDisk(const std::vector<std::string>& overrides) const {
+AskedLook LiveSession::readAsked(const std::vector<std::string>& overrides) const {
   const LooksAtOutputs looking;
-  Look look = readLook(settings_.look, overrides);
-  if (!overrides.empty()) refuseForeignPaths(readLook(settings_.look, {}), look);
+  AskedLook look{readLook(settings_.look, {}), readLook(settings_.look, overrides)};
+  refuseForeignPaths(look.onDisk, look.asked);
   return look;
 }
 
 std::vector<std::string> LiveSession::save(const std::vector<std::string>& overrides) const {
-  readOnDisk(overrides);
+  readAsked(overrides);
   return saveLook(settings_.look, overrides);
 }
 
@@ -111,12 +111,13 @@ LiveFrame& LiveSession::frameOf(size_t input) {
 }
 
 void LiveSession::answer(bool whole) {
-  std::shared_ptr<const LivePicture> picture;
-  std::string error;
+  LiveView made;
   sharp_ = true;  // after an error there is nothing to sharpen
   files_ = filesNow();
   try {
-    const Look look = readOnDisk(now_.overrides);
+    const auto [onDisk, look] = readAsked(now_.overrides);
+    made.stylesOnDisk = onDisk.styles.size();
+    made.lightsOnDisk = onDisk.lights.size();
     strips_.clear();
     for (const StyleLook& style : look.styles)
       if (!isBuiltinStrip(style.style.strip)) strips_.push_back(look.resolve(style.style.strip));
@@ -126,28 +127,32 @@ void LiveSession::answer(bool whole) {
       const std::lock_guard lock(mutex_);
       if (whole) stop = sharpening_.get_token();
     }
-    picture = std::make_shared<const LivePicture>(
+    made.picture = std::make_shared<const LivePicture>(
         frameOf(now_.input).compose(look, shelf_, whole ? 0 : settings_.size, stop));
-    sharp_ = picture->step == 1;
+    sharp_ = made.picture->step == 1;
   } catch (const Superseded&) {
     sharp_ = false;
     return;
   } catch (const std::bad_alloc&) {
-    error = "out of memory";
+    made.error = "out of memory";
   } catch (const std::exception& problem) {
-    error = problem.what();
+    made.error = problem.what();
   }
-  publish(std::move(picture), std::move(error));
+  publish(std::move(made));
 }
 
-void LiveSession::publish(std::shared_ptr<const LivePicture> picture, std::string error) {
+/// An error leaves the last good picture with what belongs to it.
+void LiveSession::publish(LiveView made) {
   const std::lock_guard lock(mutex_);
-  ++view_.version;
-  view_.change = nowChange_;
-  view_.error = std::move(error);
-  if (picture) {
-    view_.picture = std::move(picture);
-    view_.input = now_.input;
+  made.version = view_.version + 1;
+  made.change = nowChange_;
+  made.input = now_.input;
+  if (made.picture) {
+    view_ = std::move(made);
+  } else {
+    view_.version = made.version;
+    view_.change = made.change;
+    view_.error = std::move(made.error);
   }
   changed_.notify_all();
 }

@@ -133,6 +133,8 @@ TEST_F(Session, ThePageGetsStateAndPixelsInOneAnswer) {
     EXPECT_EQ(answer.body.size(), 4 + state.dump(-1, ' ', true).size() + width * height * 4)
         << stage;
     EXPECT_EQ(state["values"]["style"][0]["style"]["strip"], "builtin:soft");
+    EXPECT_EQ(state["onDisk"], (nlohmann::json{{"style", 1}, {"light", 0}}));
+    EXPECT_EQ(state["lights"][0]["name"], "Key");
   }
   EXPECT_EQ(get("/picture", {{"stage", "nothing"}}).status, 400);
   EXPECT_EQ(get("/picture", {{"exposure", "much"}}).status, 400);

@@ -229,6 +229,20 @@ test('strips are chosen from their pictures', async () => {
   await picture('strips.png');
 });
 
+test('a style that is in no file yet stays what it is when the file gets another one', async () => {
+  await page.mouse.click(...await placeOf('Table'));
+  await page.click('#own');
+  await page.waitForSelector('#scope [value="style 1"]', { state: 'attached' });
+  const other = '\n[[style]]\nobject = "Pear"\nstrip = "builtin:cel"\n';
+  writeFileSync(look, start + other);
+  await page.waitForSelector('#scope [value="style 2"]', { state: 'attached' });
+  const names = await page.locator('#scope option').allTextContents();
+  assert.deepEqual(names, ['whole look', 'style 1 Vase', 'style 2 Pear', 'style 3 Table']);
+  await page.click('#save');
+  await page.waitForFunction(() => document.getElementById('save').disabled);
+  assert.equal(readFileSync(look, 'utf8'), `${start}${other}\n[[style]]\nobject = ["Table"]\n`);
+});
+
 test('a light is dragged where the frame has the shapes that cast its shadow', async () => {
   assert.ok(await page.isHidden('#light'));
   const [served, place] = await serve(join(CASTERS, 'shot.0001.exr'));

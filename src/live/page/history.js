@@ -53,6 +53,32 @@ export class History {
     this.changed();
   }
 
+  /** `counts` says how many entries of each list the file has. When another program added or took
+   * some, those that are in no file yet get other numbers. */
+  renumber(counts) {
+    for (const list of ['style', 'light']) {
+      const numbers = [...this.#made].map((path) => entry.exec(path))
+        .filter(([, of]) => of === list).map(([, , number]) => Number(number));
+      const shift = counts[list] - Math.min(...numbers);
+      if (numbers.length && shift) this.#shift(list, Math.min(...numbers), shift);
+    }
+  }
+
+  #shift(list, first, shift) {
+    const renamed = (path) => {
+      const [, of, number] = entry.exec(path) ?? [];
+      return of === list && Number(number) >= first
+        ? path.replace(entry, `${list}[${Number(number) + shift}].`)
+        : path;
+    };
+    const all = (state) => new Map([...state].map(([path, text]) => [renamed(path), text]));
+    this.overrides = all(this.overrides);
+    this.#past = this.#past.map(all);
+    this.#future = this.#future.map(all);
+    this.#made = new Set([...this.#made].map(renamed));
+    this.changed();
+  }
+
   undo() {
     this.#step(this.#past, this.#future);
   }

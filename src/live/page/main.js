@@ -29,9 +29,11 @@ addEventListener('change', () => history.rest());
 addEventListener('pointerup', () => history.rest());
 addEventListener('beforeunload', (event) => history.overrides.size && event.preventDefault());
 
+let saving = false; // the file may have the new entries before its answer is here
 async function saveAll() {
   const written = [...history.overrides];
-  if (!written.length) return;
+  if (!written.length || saving) return;
+  saving = true;
   try {
     const before = await save(spelled());
     history.saved(written, before.map((text) => {
@@ -41,6 +43,7 @@ async function saveAll() {
   } catch (problem) {
     complain(problem.message);
   }
+  saving = false;
 }
 
 // What is pointed at.
@@ -205,6 +208,7 @@ const pictures = new Pictures(() => ({ stage, ...viewing() }), (now, pixels) => 
   state = now;
   complain(now.error);
   if (!now.values) return;
+  if (!now.error && !saving) history.renumber(now.onDisk);
   showLists(now);
   if (pixels) {
     shownPixels = pixels;
