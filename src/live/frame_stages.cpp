@@ -103,7 +103,7 @@ Made<Floats> FrameStages::composeTone(const Look& look, const FramePlan& plan,
   });
 }
 
-void FrameStages::paint(const Look& look, const Made<LiveStrips>& strips, const FramePlan& plan,
+void FrameStages::paint(const Look& look, const Made<StripSet>& strips, const FramePlan& plan,
                         StagedFrame& frame, StageRun& run) {
   StageKey strokes = keyOf({frame.planes.version, strips.version});
   addStrokes(strokes, look, plan);
@@ -111,7 +111,7 @@ void FrameStages::paint(const Look& look, const Made<LiveStrips>& strips, const 
   addStyleColours(styles, look);
   frame.styles = styles_.at(run, "styles", std::move(styles), [&] {
     DoubtedStyles doubted;
-    doubted.surfaces = styleSurfaces(look, strips->set, plan, *frame.planes, doubted.warnings);
+    doubted.surfaces = styleSurfaces(look, *strips, plan, *frame.planes, doubted.warnings);
     return doubted;
   });
 
@@ -127,7 +127,7 @@ void FrameStages::paint(const Look& look, const Made<LiveStrips>& strips, const 
 
   strokes.add(frame.tone.version);
   frame.strokes = strokes_.at(run, "strokes", std::move(strokes), [&] {
-    return paintStyles(strips->set, *frame.planes, *frame.tone, styled, false);
+    return paintStyles(*strips, *frame.planes, *frame.tone, styled, false);
   });
 
   StageKey picture = keyOf(
@@ -145,7 +145,7 @@ void FrameStages::forgetLights(const FramePlan& plan) {
   });
 }
 
-StagedFrame FrameStages::compose(const Look& look, const Made<LiveStrips>& strips,
+StagedFrame FrameStages::compose(const Look& look, const Made<StripSet>& strips,
                                  const FramePlan& plan, const Made<FramePlanes>& planes,
                                  StageRun& run) {
   StagedFrame frame;

@@ -14,15 +14,6 @@
 
 namespace kagefude {
 
-/// Strips with the colour configuration that they need to stay.
-struct LiveStrips {
-  LiveStrips(const Look& look, std::shared_ptr<const Colour> with)
-      : colour(std::move(with)), set(look, *colour) {}
-
-  std::shared_ptr<const Colour> colour;
-  StripSet set;
-};
-
 /// Labels of a frame's surfaces, and which pixels are joined in them.
 struct FrameSurfaces {
   Labels labels;
@@ -68,7 +59,7 @@ class FrameStages {
   /// `look` has its lengths in painted pixels (inRenderedPixels); `planes` are those of `plan`.
   /// Throws Superseded between two stages when `run.stop` is asked for, else as composeFrame does;
   /// what was made until then stays.
-  StagedFrame compose(const Look& look, const Made<LiveStrips>& strips, const FramePlan& plan,
+  StagedFrame compose(const Look& look, const Made<StripSet>& strips, const FramePlan& plan,
                       const Made<FramePlanes>& planes, StageRun& run);
 
  private:
@@ -81,7 +72,7 @@ class FrameStages {
                                const StagedFrame& frame, StageRun& run);
   Made<Floats> composeTone(const Look& look, const FramePlan& plan, const StagedFrame& frame,
                            StageRun& run);
-  void paint(const Look& look, const Made<LiveStrips>& strips, const FramePlan& plan,
+  void paint(const Look& look, const Made<StripSet>& strips, const FramePlan& plan,
              StagedFrame& frame, StageRun& run);
   void forgetLights(const FramePlan& plan);
 

@@ -19,7 +19,9 @@
 //   read        readFramePlanes              files (time, size, inode), [frame], channels asked for
 //   sample      sampleFrame                  step (only where the frame is larger than --size)
 //   colour      Colour                       the configuration's file
-//   strips      StripSet                     names and files of the strips, colour.strip
+//   strips      StripSet                     names and files of the strips, colour.strip; only
+//   those
+//                                            that changed are loaded
 //   surfaces    labelSurfaces                [surfaces]
 //   shadow      the method of each light     the light's place, size, masks, method; its passes
 //   smoothing   smoothWithinSurfaces         [smooth] (where the method's row asks for it)
