@@ -33,6 +33,19 @@ def blocks_otherwise(material):
     return _is_seen_through(output.inputs["Surface"])
 
 
+def shows(material):
+    """Whether data passes take the material's surface where it is hit: a float or socket of its tree,
+    1 or 0. They go on through what is less than half opaque."""
+    tree = material.node_tree
+    output = tree.get_output_node('CYCLES')
+    if output is None or not _is_seen_through(output.inputs["Surface"]):
+        return 1.0
+    through = _through(tree, output.inputs["Surface"])
+    if isinstance(through, float):
+        return float(through < OPAQUE_BELOW)
+    return _math(tree, 'LESS_THAN', through, OPAQUE_BELOW)
+
+
 def is_volume_only(item):
     """Whether an object is nothing but fog, which has no surface that could block or be painted."""
     if item.type == 'VOLUME':

@@ -23,8 +23,8 @@ examples/make_strips.sh "$kagefude" $out/strips >/dev/null
 
 # Prints the frame range of a shot.
 frames_of() { [ "$1" = still_life ] && echo 1 || echo 1-24; }
-# How many times larger than the shot its frames are exported: the walk's hair and grass are thin.
-scale_of() { [ "$1" = walk ] && echo 2 || echo 1; }
+# Prints masks and scale of a shot's export: the walk's hair and grass are thin, and its sun is small.
+detail_of() { [ "$1" = walk ] && echo "--masks disc:5 --scale 2" || echo "--masks disc:9"; }
 
 for shot in "${shots[@]}"; do
   folder=$out/$shot
@@ -35,8 +35,7 @@ for shot in "${shots[@]}"; do
     blender -b --factory-startup --python-exit-code 3 -P "examples/$shot.py" -- \
       "$folder/$shot.blend" >"$folder/blender.log"
     blender -b "$folder/$shot.blend" --python-exit-code 3 -P blender_export/export_aovs.py -- \
-      --output "$folder/aovs/$shot.####.exr" --frames "$(frames_of "$shot")" --masks disc:9 \
-      --scale "$(scale_of "$shot")" \
+      --output "$folder/aovs/$shot.####.exr" --frames "$(frames_of "$shot")" $(detail_of "$shot") \
       2>&1 | tee -a "$folder/blender.log" | sed -n -u '/^Progress:\|^Error/p'
     touch "$folder/rendered"
   fi
