@@ -261,6 +261,12 @@ def displaces(material):
     return method != 'BUMP'
 
 
+def picks_half_seen():
+    """Whether data passes of what is partly see-through take it or what is behind it at random, as from
+    5.0 on; before, they take what is at least half opaque."""
+    return bpy.app.version >= (5, 0, 0)
+
+
 def add_number_output(group, name):
     _add_number(group, name, 'OUTPUT')
 

@@ -8,8 +8,8 @@ instances too, which share their object's space; so that they do not repeat each
 differs from instance to instance travels along (Object Info's Random).
 
 The node group that writes both AOVs stands in each of the artist's materials, so holes and
-displacement are as they render. Cycles adds up what a ray meets on its way to the first surface that
-is at least half opaque; so what is less writes 0. Materials and attributes are changed in the exporting Blender only,
+displacement are as they render. Cycles adds up what a ray meets on its way to the surface that its
+other passes take; so what may not be that writes 0. Materials and attributes are changed in the exporting Blender only,
 which never saves.
 """
 
@@ -22,7 +22,7 @@ from . import compat, mask_materials
 REST, RANDOM = "Rest", "InstanceRandom"
 FLAG = "kagefude_rest"         # custom property of an object: it has the attribute
 ATTRIBUTE = "rest_position"
-SHOWS = "Shows"                # input of the node group: 1 where the surface is the pixel's, else 0
+SHOWS = "Shows"                # input of the node group: 1 where the surface is sure to be the pixel's
 PLAIN = "kagefude plain"       # material of faces that have none, which renders as none does
 
 # Modifiers that move what is there. Others keep places or make new geometry.
