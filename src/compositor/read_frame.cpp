@@ -6,8 +6,10 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "compositor/casting_scene.h"
 #include "compositor/rest_pass.h"
+#include "compositor/unseen_things.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
@@ -118,6 +120,17 @@ void clearUnpainted(const FramePlan& plan, FramePlanes& planes) {
   });
 }
 
+void noteUnseen(const FramePlan& plan, FramePlanes& planes) {
+  const std::vector<std::string> unseen = unseenThings(plan, planes);
+  if (unseen.empty()) return;
+  planes.warnings.push_back(fmt::format(
+      "things cover pixels but stand at no pixel's centre, so they are not painted and what is "
+      "behind "
+      "them is ({}): they are more than half see-through, or thinner than a pixel; make them more "
+      "opaque, or export larger frames (--scale)",
+      listNames(unseen)));
+}
+
 }  // namespace
 
 FramePlanes readFramePlanes(const FramePlan& plan) {
@@ -195,6 +208,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
+  noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
   checkSpaces(plan, planes);
   return planes;
