@@ -43,7 +43,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/kagefudeConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/kagefudeConfigVersion.cmake
   DESTINATION ${KAGEFUDE_CMAKE_DIR} COMPONENT library)
 install(DIRECTORY ./ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/kagefude COMPONENT library
-  FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE PATTERN oiio EXCLUDE PATTERN sequence EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE PATTERN oiio EXCLUDE PATTERN sequence EXCLUDE PATTERN live EXCLUDE)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "the kagefude project <kagefude@localhost>")
@@ -61,5 +61,5 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libkagefude-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "kagefude (= ${PROJECT_VERSION}), libopenexr-dev, libopencolorio-dev, libopenimageio-dev, libimath-dev, libtbb-dev, libcli11-dev, libtomlplusplus-dev, nlohmann-json3-dev, libfmt-dev, libdeflate-dev, libisal-dev, libtinyobjloader-dev, libpng-dev, libfreetype-dev, pkg-config")
+  "kagefude (= ${PROJECT_VERSION}), libopenexr-dev, libopencolorio-dev, libopenimageio-dev, libimath-dev, libtbb-dev, libcli11-dev, libtomlplusplus-dev, nlohmann-json3-dev, libfmt-dev, libdeflate-dev, libisal-dev, libmicrohttpd-dev, libtinyobjloader-dev, libpng-dev, libfreetype-dev, pkg-config")
 include(CPack)

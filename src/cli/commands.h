@@ -41,6 +41,7 @@ void addStripCommand(CLI::App& app, Console& console, int& exit);
 void addCompareCommand(CLI::App& app, Console& console, int& exit);
 void addBenchCommand(CLI::App& app, Console& console, int& exit);
 void addCheckCommand(CLI::App& app, Console& console, int& exit);
+void addLiveCommand(CLI::App& app, Console& console, int& exit);
 /// Comes last, for it describes the others.
 void addDocumentCommand(CLI::App& app, Console& console, int& exit);
 

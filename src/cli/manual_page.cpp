@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
-#include "cli/parameter_text.h"
 #include "look/look_sections.h"
+#include "look/parameter_text.h"
 #include "look/read_section.h"
 #include "passes/strip/strip_paint.h"
 

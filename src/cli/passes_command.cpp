@@ -9,8 +9,9 @@
 #include "base/nearest_name.h"
 #include "base/printed_json.h"
 #include "cli/commands.h"
-#include "cli/parameter_text.h"
 #include "look/look_sections.h"
+#include "look/parameter_json.h"
+#include "look/parameter_text.h"
 #include "look/read_section.h"
 #include "passes/strip/strip_paint.h"
 
@@ -29,30 +30,6 @@ void printTable(std::ostream& out, const ParameterTable& table) {
     out << fmt::format("\n      {}\n", p.help);
   }
   out << "\n";
-}
-
-Json defaultOf(const Parameter& p) {
-  const Value value = p.defaultValue();
-  if (p.type == ValueType::choice)
-    return std::string(p.choices[static_cast<size_t>(std::get<int>(value))]);
-  return std::visit([](const auto& v) { return Json(v); }, value);
-}
-
-Json toJson(const ParameterTable& table) {
-  Json parameters = Json::array();
-  for (const Parameter& p : table.parameters) {
-    Json row{{"name", p.name}, {"type", typeName(p.type)}, {"default", defaultOf(p)}};
-    if (hasRange(p)) row["range"] = {p.minimum, p.maximum};
-    if (!p.choices.empty())
-      row["choices"] = std::vector<std::string>(p.choices.begin(), p.choices.end());
-    if (!p.unit.empty()) row["unit"] = p.unit;
-    row["help"] = p.help;
-    parameters.push_back(std::move(row));
-  }
-  return {{"pass", table.pass},
-          {"summary", table.summary},
-          {"source", table.source},
-          {"parameters", std::move(parameters)}};
 }
 
 /// The look's tables, or the one of that name, which may be `strip make`'s own.
@@ -75,7 +52,7 @@ void printPasses(std::ostream& out, const std::string& name, bool json) {
   Json list = Json::array();
   for (const ParameterTable* table : chosenTables(name)) {
     if (json)
-      list.push_back(toJson(*table));
+      list.push_back(jsonOf(*table));
     else
       printTable(out, *table);
   }

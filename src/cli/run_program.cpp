@@ -64,6 +64,7 @@ int run(int argc, const char* const* argv, Console& console) {
   addCompCommand(app, commandLine(argc, argv), console, exit);
   addInspectCommand(app, console, exit);
   addSheetCommand(app, console, exit);
+  addLiveCommand(app, console, exit);
   addPassesCommand(app, console, exit);
   addStripCommand(app, console, exit);
   addCompareCommand(app, console, exit);

@@ -1,10 +1,8 @@
 #include "compositor/compose_frame.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "compositor/frame_edges.h"
+#include "compositor/finish_picture.h"
 #include "compositor/frame_tone.h"
 #include "compositor/output_layers.h"
 #include "compositor/paint_styles.h"
@@ -26,48 +24,6 @@ Floats fractions(View<const float> values) {
   return result;
 }
 
-void multiplyAlbedo(const FramePlanes& planes, const StyledSurfaces& styled, BrushResult& brush) {
-  if (planes.albedo.empty()) return;
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x) {
-        const uint16_t anchor = styled.anchorIndex(x, y);
-        if (anchor == 0 || !styled.multiplies[anchor - 1u]) continue;
-        brush.r(x, y) *= planes.albedo.x(x, y);
-        brush.g(x, y) *= planes.albedo.y(x, y);
-        brush.b(x, y) *= planes.albedo.z(x, y);
-      }
-  });
-}
-
-/// Associated "over": the strokes, and behind them the beauty.
-void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x) {
-        const float behind = 1.0f - brush.a(x, y);
-        brush.r(x, y) += behind * planes.beauty.x(x, y);
-        brush.g(x, y) += behind * planes.beauty.y(x, y);
-        brush.b(x, y) += behind * planes.beauty.z(x, y);
-        brush.a(x, y) += behind * (planes.alpha.empty() ? 1.0f : planes.alpha(x, y));
-      }
-  });
-}
-
-/// Associated "over": drawn lines over what is painted and what is not.
-void putLinesOver(const FramePlanes& planes, BrushResult& brush) {
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x) {
-        const float behind = 1.0f - planes.linesAlpha(x, y);
-        brush.r(x, y) = planes.lines.x(x, y) + behind * brush.r(x, y);
-        brush.g(x, y) = planes.lines.y(x, y) + behind * brush.g(x, y);
-        brush.b(x, y) = planes.lines.z(x, y) + behind * brush.b(x, y);
-        brush.a(x, y) = planes.linesAlpha(x, y) + behind * brush.a(x, y);
-      }
-  });
-}
-
 void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageSink& sink) {
   if (!planes.beauty.empty()) sink.picture("beauty", planes.beauty);
   if (!planes.albedo.empty()) sink.picture("albedo", planes.albedo);
@@ -76,30 +32,13 @@ void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageS
   sink.labels("surfaces", surfaces);
 }
 
-void noteBadPixels(const FramePlanes& planes, std::vector<std::string>& warnings) {
-  const auto note = [&](size_t count, const char* what, const char* taken) {
-    if (count)
-      warnings.push_back(fmt::format("NaN or Inf in {} is taken as {} ({} pixel{})", what, taken,
-                                     count, count == 1 ? "" : "s"));
-  };
-  note(planes.badPixels, "Position or Normal", "background");
-  note(planes.badBeauty, "the beauty", "black");
-  note(planes.badAlbedo, "the albedo", "black");
-  note(planes.badCoverage, "the coverage of Cryptomatte", "wholly its first id");
-}
-
 }  // namespace
 
 FrameResult composeFrame(const Look& asked, const StripSet& strips, const FramePlan& plan,
                          FramePlanes planes, StageSink* sink, StageClock* clock) {
   const Look look = inRenderedPixels(asked);
   FrameResult result;
-  result.warnings = plan.warnings;
-  result.warnings.insert(result.warnings.end(), planes.warnings.begin(), planes.warnings.end());
-  if (planes.casting)
-    result.warnings.insert(result.warnings.end(), planes.casting->warnings.begin(),
-                           planes.casting->warnings.end());
-  noteBadPixels(planes, result.warnings);
+  result.warnings = inputWarnings(plan, planes);
   Labels surfaces =
       labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces);
   lap(clock, "surfaces");
@@ -118,14 +57,10 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
     sink->number("brush.angle", brush.angle);
     sink->number("brush.repeat, within each ring", fractions(brush.repeat));
   }
-  multiplyAlbedo(planes, styled, brush);
-  blendEdges(plan, planes, brush);
-  Floats outline = drawStyleOutlines(plan, planes, styled, asksFor(look, "outline"), brush);
+  Floats outline = finishStrokes(plan, planes, styled, asksFor(look, "outline"), brush);
   lap(clock, "edges and outlines");
   if (sink && !outline.empty()) sink->number("outline", outline);
-  if (look.output.background == Background::beauty && !planes.beauty.empty())
-    putBeautyBehind(planes, brush);
-  if (!planes.linesAlpha.empty()) putLinesOver(planes, brush);
+  putBehindAndOver(look, planes, brush);
   result.colour.x = std::move(brush.r);
   result.colour.y = std::move(brush.g);
   result.colour.z = std::move(brush.b);

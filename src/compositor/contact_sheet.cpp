@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compositor/stage_colours.h"
 #include "exr/write_image.h"
 #include "image/box_reduce.h"
 #include "image/parallel.h"
-#include "passes/search/classes.h"
 #include "picture/draw_text.h"
 
 namespace kagefude {
@@ -16,19 +16,6 @@ constexpr int captionHeight = 22;
 constexpr int captionSize = 14;
 constexpr int gap = 8;
 constexpr float paper = 0.13f;
-
-/// A bright, distinct colour for a label: hues spread by the golden ratio over hashed labels.
-V3f labelColour(uint32_t label) {
-  if (label == 0) return {0, 0, 0};
-  const uint32_t hash = (label ^ (label >> 15)) * 0x9e3779b1u;
-  const float hue = static_cast<float>(hash >> 8) / 16777216.0f * 6.0f;
-  const float value = 0.6f + 0.4f * static_cast<float>(hash & 255u) / 255.0f;
-  const auto ramp = [&](float shift) {
-    const float h = std::fmod(hue + shift, 6.0f);
-    return value * (0.25f + 0.75f * std::clamp(std::fabs(h - 3.0f) - 1.0f, 0.0f, 1.0f));
-  };
-  return {ramp(0), ramp(4), ramp(2)};
-}
 
 void blit(const Floats& tile, View<float> sheet, int left, int top) {
   for (int y = 0; y < tile.height(); ++y)
@@ -81,25 +68,13 @@ void ContactSheet::labels(const std::string& title, View<const uint32_t> plane) 
 void ContactSheet::classes(const std::string& title, View<const uint8_t> plane) {
   add(
       title, plane.width, plane.height,
-      [&](int x, int y) {
-        switch (static_cast<ShadowClass>(plane(x, y))) {
-          case ShadowClass::umbra:
-            return V3f(0.02f, 0.02f, 0.10f);
-          case ShadowClass::penumbra:
-            return V3f(0.93f, 0.62f, 0.15f);
-          case ShadowClass::lit:
-            return V3f(1, 1, 1);
-          default:
-            return V3f(0.3f, 0.3f, 0.3f);
-        }
-      },
-      false);
+      [&](int x, int y) { return classColour(static_cast<ShadowClass>(plane(x, y))); }, false);
 }
 
 void ContactSheet::directions(const std::string& title, Vec3View plane) {
   add(
       title, plane.width(), plane.height(),
-      [&](int x, int y) { return plane(x, y) * 0.5f + V3f(0.5f); }, true);
+      [&](int x, int y) { return directionColour(plane(x, y)); }, true);
 }
 
 void ContactSheet::picture(const std::string& title, Vec3View plane) {

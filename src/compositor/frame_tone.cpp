@@ -69,6 +69,30 @@ void applyReach(const FrameLight& light, ToneLight counts, const FramePlanes& pl
 
 }  // namespace
 
+Floats lightTone(const Look& look, const FrameLight& light, View<const float> visibility,
+                 const FramePlanes& planes, View<const uint32_t> surfaces, StageSink* sink) {
+  Floats tone =
+      lambertShade(planes.normal, planes.position, surfaces, light.light, light.passes.shade);
+  if (sink) sink->number(fmt::format("shade of {}", light.name), tone);
+  // The layers hold what was measured; only the tone takes the shadow's strength.
+  const Floats weak = weakened(visibility, light.strength);
+  mergeTone(weak.empty() ? visibility : weak, tone, light.passes.merge, tone);
+  applyReach(light, look.passes.tone.light, planes, surfaces, tone);
+  return tone;
+}
+
+bool oneToneIsAll(const Look& look, const std::vector<FrameLight>& lights) {
+  return lights.size() == 1 && look.passes.tone.light == ToneLight::shade &&
+         weightsOf(lights, look)[0] == 1.0f;
+}
+
+Floats sumTones(const Look& look, const std::vector<FrameLight>& lights,
+                const std::vector<View<const float>>& tones) {
+  Floats sum(tones.front().width, tones.front().height);
+  combineTones(tones, weightsOf(lights, look), look.passes.merge, sum);
+  return sum;
+}
+
 Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& planes,
                  View<const uint32_t> surfaces, FrameResult& result, StageSink* sink,
                  StageClock* clock) {
@@ -76,30 +100,17 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
   for (size_t i = 0; i < plan.lights.size(); ++i) {
     const FrameLight& light = plan.lights[i];
     LightVisibility shadow = lightVisibility(light, plan, planes.lights[i], planes, surfaces, sink);
-    Floats visibility = std::move(shadow.visibility);
     lap(clock, fmt::format("visibility.{}", light.name));
-    Floats tone =
-        lambertShade(planes.normal, planes.position, surfaces, light.light, light.passes.shade);
-    if (sink) sink->number(fmt::format("shade of {}", light.name), tone);
-    // The layers hold what was measured; only the tone takes the shadow's strength.
-    const Floats weak = weakened(visibility, light.strength);
-    mergeTone(weak.empty() ? visibility : weak, tone, light.passes.merge, tone);
-    applyReach(light, look.passes.tone.light, planes, surfaces, tone);
-    tones.push_back(std::move(tone));
+    tones.push_back(lightTone(look, light, shadow.visibility, planes, surfaces, sink));
     lap(clock, fmt::format("shade and merge of {}", light.name));
     LayerSources sources{planes};
     sources.light = &light;
-    sources.visibility = std::move(visibility);
+    sources.visibility = std::move(shadow.visibility);
     sources.confidence = std::move(shadow.confidence);
     takeLayers(look, LayerStage::light, sources, result);
   }
-  const std::vector<float> weights = weightsOf(plan.lights, look);
-  if (tones.size() == 1 && weights[0] == 1.0f && look.passes.tone.light == ToneLight::shade)
-    return std::move(tones.front());
-  Floats sum(planes.width, planes.height);
-  const std::vector<View<const float>> views(tones.begin(), tones.end());
-  combineTones(views, weights, look.passes.merge, sum);
-  return sum;
+  if (oneToneIsAll(look, plan.lights)) return std::move(tones.front());
+  return sumTones(look, plan.lights, {tones.begin(), tones.end()});
 }
 
 }  // namespace kagefude

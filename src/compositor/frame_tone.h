@@ -14,4 +14,16 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
                  View<const uint32_t> surfaces, FrameResult& result, StageSink* sink,
                  StageClock* clock);
 
+/// One light's part of it, before it is weighed against the others: its shade merged with
+/// `visibility` at its shadow's strength, and how far and to which side it shines.
+Floats lightTone(const Look& look, const FrameLight& light, View<const float> visibility,
+                 const FramePlanes& planes, View<const uint32_t> surfaces, StageSink* sink);
+
+/// Whether the tone of the first light is that of the frame as it is, without sumTones.
+bool oneToneIsAll(const Look& look, const std::vector<FrameLight>& lights);
+
+/// The lights' tones by their weights, in the order of the plan's lights.
+Floats sumTones(const Look& look, const std::vector<FrameLight>& lights,
+                const std::vector<View<const float>>& tones);
+
 }  // namespace kagefude

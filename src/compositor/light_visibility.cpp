@@ -17,6 +17,8 @@ void showMasks(const ShadowWork& work, StageSink& sink) {
                  classifyShadow(viewsOf(masks), work.surfaces).view());
 }
 
+}  // namespace
+
 bool isSmoothed(const FrameLight& light) {
   switch (entryOf(light.method).smoothing) {
     case Smoothing::never:
@@ -28,8 +30,6 @@ bool isSmoothed(const FrameLight& light) {
   }
   return false;
 }
-
-}  // namespace
 
 std::vector<View<const uint8_t>> viewsOf(const std::vector<Bytes>& masks) {
   return {masks.begin(), masks.end()};

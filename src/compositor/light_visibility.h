@@ -26,6 +26,9 @@ LightVisibility lightVisibility(const FrameLight& light, const FramePlan& plan,
                                 const LightPlanes& planes, const FramePlanes& frame,
                                 View<const uint32_t> surfaces, StageSink* sink);
 
+/// Whether lightVisibility smooths what the light's method finds.
+bool isSmoothed(const FrameLight& light);
+
 /// The labels that a search must not leave, as the look asks.
 View<const uint32_t> labelsFor(SearchBound bound, const ShadowWork& work);
 

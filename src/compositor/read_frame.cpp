@@ -198,8 +198,10 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   const auto wantsScene = [](const FrameLight& light) {
     return entryOf(light.method).needs.camera;
   };
-  if (std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene))
+  if (std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene)) {
+    planes.rays = raysOf(plan);
     planes.casting = std::make_shared<const CastingScene>(readCastingScene(plan));
+  }
   if (plan.rest) markWithoutRest(restAlpha, planes.rest);
   convertToWorld(plan.spaces, plan.image, planes.position, planes.normal);
   clearOutside(plan, planes);

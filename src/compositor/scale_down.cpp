@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "look/look_sections.h"
@@ -10,12 +11,13 @@
 namespace kagefude {
 namespace {
 
-void multiplyPixels(const ParameterTable& table, void* values, int scale) {
+void multiplyPixels(const ParameterTable& table, void* values, double factor) {
   for (const Parameter& parameter : table.parameters) {
     if (parameter.unit != "pixels") continue;
     Value value = parameter.get(values);
-    if (auto* number = std::get_if<double>(&value)) *number *= scale;
-    if (auto* whole = std::get_if<int>(&value)) *whole *= scale;
+    if (auto* number = std::get_if<double>(&value)) *number *= factor;
+    if (auto* whole = std::get_if<int>(&value))
+      *whole = static_cast<int>(std::lround(std::max(*whole * factor, parameter.minimum)));
     parameter.set(values, value);
   }
 }
@@ -31,13 +33,17 @@ const OutputLayerEntry& layerOf(std::string_view name) {
 
 Look inRenderedPixels(Look look) {
   const int scale = look.output.scale;
-  if (scale == 1) return look;
+  return multiplyPixels(std::move(look), scale);
+}
+
+Look multiplyPixels(Look look, double factor) {
+  if (factor == 1) return look;
   for (const LookSection& section : lookSections) {
-    if (section.inLook) multiplyPixels(*section.table, section.inLook(look), scale);
+    if (section.inLook) multiplyPixels(*section.table, section.inLook(look), factor);
     for (LightLook& light : look.lights)
-      if (section.inLight) multiplyPixels(*section.table, section.inLight(light), scale);
+      if (section.inLight) multiplyPixels(*section.table, section.inLight(light), factor);
     for (StyleLook& style : look.styles)
-      if (section.inStyle) multiplyPixels(*section.table, section.inStyle(style), scale);
+      if (section.inStyle) multiplyPixels(*section.table, section.inStyle(style), factor);
   }
   return look;
 }

@@ -13,6 +13,9 @@ namespace kagefude {
 /// The look with its lengths of unit "pixels", which are those of the picture that is written, in
 /// pixels of the picture that is painted: `output.scale` times as many.
 Look inRenderedPixels(Look look);
+/// The look with its lengths of unit "pixels" times `factor`; whole numbers are rounded, and never
+/// go below the least that their key takes.
+Look multiplyPixels(Look look, double factor);
 
 /// Throws InputError where `output.scale` does not divide the picture's sides; notes where the
 /// frame's JSON says another scale.

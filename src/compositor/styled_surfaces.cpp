@@ -249,6 +249,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     result.anchors.push_back(makeBrushAnchor(subject, light.light, brush));
     result.anchors.back().atRest = atRest;
     if (atRest) grounds.lay(number, subject, result.anchors.back());
+    result.styles.push_back(found ? static_cast<int>(found - look.styles.data()) : -1);
     result.brushes.push_back(style.passes.brush);
     result.tones.push_back(style.passes.tone);
     result.multiplies.push_back(multipliesColour(style.style));

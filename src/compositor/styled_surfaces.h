@@ -22,7 +22,8 @@ struct StyledSurfaces {
   std::vector<bool> fitting;    ///< each style of the look: whether it fits a surface that is seen
   Plane<uint16_t> anchorIndex;  ///< 0 = background, i -> anchors[i - 1]
   std::vector<BrushAnchor> anchors;
-  Vec3Plane rest;  ///< places at rest of the anchors that lie there; empty where none does
+  Vec3Plane rest;           ///< places at rest of the anchors that lie there; empty where none does
+  std::vector<int> styles;  ///< per anchor: place in the look's list, -1: none matches
   std::vector<BrushParams> brushes;    ///< per anchor
   std::vector<ToneParams> tones;       ///< per anchor
   std::vector<bool> multiplies;        ///< per anchor: the strip multiplies the surface's colour

@@ -24,12 +24,9 @@ bool isNullDevice(const std::filesystem::path& path) {
   return std::filesystem::canonical(path, missing) == "/dev/null";
 }
 
-toml::table parseFile(const std::filesystem::path& path) {
-  if (path.empty() || isNullDevice(path)) return {};
+toml::table parseText(std::string_view text, const std::filesystem::path& path) {
   try {
-    return parseToml(readPlainFile(path, largestLook), path.string());
-  } catch (const InputError& error) {
-    throw LookError(fmt::format("the look {}", error.what()));
+    return parseToml(text, path.string());
   } catch (const toml::parse_error& error) {
     const auto line = error.source().begin.line;
     const std::string place =
@@ -189,8 +186,22 @@ const StyleLook* chooseStyle(const std::vector<StyleLook>& styles,
   return chosen;
 }
 
+std::string readLookFile(const std::filesystem::path& path) {
+  if (path.empty() || isNullDevice(path)) return {};
+  try {
+    return readPlainFile(path, largestLook);
+  } catch (const InputError& error) {
+    throw LookError(fmt::format("the look {}", error.what()));
+  }
+}
+
 Look readLook(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  toml::table root = parseFile(path);
+  return readLookText(readLookFile(path), path, overrides);
+}
+
+Look readLookText(std::string_view text, const std::filesystem::path& path,
+                  const std::vector<std::string>& overrides) {
+  toml::table root = parseText(text, path);
   for (const std::string& text : overrides) applyOverride(root, text);
   checkVersion(root);
   std::vector<std::string> known{"kagefude"};

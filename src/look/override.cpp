@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-#include <vector>
+#include <algorithm>
 
 #include "base/error.h"
 #include "look/parse_toml.h"
@@ -11,18 +10,13 @@
 namespace kagefude {
 namespace {
 
-struct Step {
-  std::string key;
-  std::optional<size_t> index;
-};
-
 [[noreturn]] void fail(const std::string& text, const std::string& why) {
   throw LookError(fmt::format("--set {}: {}", text, why));
 }
 
-Step parseStep(const std::string& text, const std::string& part) {
+OverrideStep parseStep(const std::string& text, const std::string& part) {
   const size_t bracket = part.find('[');
-  Step step{part.substr(0, bracket), std::nullopt};
+  OverrideStep step{part.substr(0, bracket), std::nullopt};
   if (step.key.empty()) fail(text, "expected section.key=value");
   if (bracket == std::string::npos) return step;
   const std::string digits = part.substr(bracket + 1, part.size() - bracket - 2);
@@ -33,8 +27,8 @@ Step parseStep(const std::string& text, const std::string& part) {
   return step;
 }
 
-std::vector<Step> parsePath(const std::string& text, const std::string& path) {
-  std::vector<Step> steps;
+std::vector<OverrideStep> parsePath(const std::string& text, const std::string& path) {
+  std::vector<OverrideStep> steps;
   for (size_t begin = 0; begin <= path.size();) {
     const size_t dot = std::min(path.find('.', begin), path.size());
     steps.push_back(parseStep(text, path.substr(begin, dot - begin)));
@@ -46,13 +40,19 @@ std::vector<Step> parsePath(const std::string& text, const std::string& path) {
   return steps;
 }
 
-toml::table& descend(toml::table& at, const Step& step, const std::string& text) {
+/// The entry of a list; a single section counts as a list of one.
+toml::node* entryOf(toml::node* list, size_t index) {
+  if (!list) return nullptr;
+  if (toml::array* entries = list->as_array())
+    return index < entries->size() ? entries->get(index) : nullptr;
+  return index == 0 && list->is_table() ? list : nullptr;
+}
+
+toml::table& descend(toml::table& at, const OverrideStep& step, const std::string& text) {
   toml::node* node = at.get(step.key);
   if (step.index) {
-    toml::array* list = node ? node->as_array() : nullptr;
-    if (!list || *step.index >= list->size())
-      fail(text, fmt::format("the look has no {}[{}]", step.key, *step.index));
-    node = list->get(*step.index);
+    node = entryOf(node, *step.index);
+    if (!node) fail(text, fmt::format("the look has no {}[{}]", step.key, *step.index));
   } else if (!node) {
     node = &at.insert(step.key, toml::table{}).first->second;
   }
@@ -78,13 +78,34 @@ void setValue(toml::table& section, const std::string& text) {
   insertValue(section, text.substr(0, equals), text.substr(equals + 1));
 }
 
-void applyOverride(toml::table& look, const std::string& text) {
+Override parseOverride(const std::string& text) {
   const size_t equals = text.find('=');
   if (equals == std::string::npos) fail(text, "expected section.key=value");
-  const std::vector<Step> steps = parsePath(text, text.substr(0, equals));
+  return {parsePath(text, text.substr(0, equals)), text.substr(equals + 1)};
+}
+
+bool beginsEntry(const toml::table& look, const Override& given) {
+  const OverrideStep& list = given.path.front();
+  if (given.path.size() != 2 || !list.index) return false;
+  const std::string& key = given.path.back().key;
+  const bool names = (list.key == "light" && key == "name") ||
+                     (list.key == "style" && (key == "object" || key == "material"));
+  const toml::node* node = look.get(list.key);
+  const bool isList = !node || (node->is_array() && node->as_array()->is_array_of_tables());
+  const size_t entries = node && node->is_array() ? node->as_array()->size() : 0;
+  return names && isList && *list.index == entries;
+}
+
+void applyOverride(toml::table& look, const std::string& text) {
+  const Override given = parseOverride(text);
+  if (beginsEntry(look, given)) {
+    toml::node& list = look.insert(given.path.front().key, toml::array{}).first->second;
+    list.as_array()->push_back(toml::table{});
+  }
   toml::table* section = &look;
-  for (size_t i = 0; i + 1 < steps.size(); ++i) section = &descend(*section, steps[i], text);
-  insertValue(*section, steps.back().key, text.substr(equals + 1));
+  for (size_t i = 0; i + 1 < given.path.size(); ++i)
+    section = &descend(*section, given.path[i], text);
+  insertValue(*section, given.path.back().key, given.value);
 }
 
 }  // namespace kagefude

@@ -102,7 +102,9 @@ std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
-    result += c;
+    const auto byte = static_cast<unsigned char>(c);
+    const bool control = byte < 0x20 || byte == 0x7f;
+    result += control ? fmt::format("\\u{:04x}", byte) : std::string(1, c);
   }
   return result + "\"";
 }

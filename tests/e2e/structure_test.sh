@@ -3,7 +3,7 @@
 # Rooms within passes/ have an order of their own.
 set -euo pipefail
 cd "$(dirname "$0")/../../src"
-house=(base image passes exr picture oiio colour frame look compositor imagebuf sequence cli)
+house=(base image passes exr picture oiio colour frame look compositor imagebuf sequence live cli)
 passes=(search tone strip light_shape depth_map casters brush edges measure)
 bad=0
 

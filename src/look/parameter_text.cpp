@@ -1,4 +1,4 @@
-#include "cli/parameter_text.h"
+#include "look/parameter_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,0 +1,166 @@
+#include "live/frame_stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compositor/finish_picture.h"
+#include "compositor/frame_tone.h"
+#include "compositor/paint_styles.h"
+#include "compositor/scale_down.h"
+#include "live/stage_keys.h"
+#include "passes/tone/smooth.h"
+#include "passes/tone/surfaces.h"
+
+namespace kagefude {
+namespace {
+
+StageKey keyOf(std::initializer_list<uint64_t> versions) {
+  StageKey key;
+  for (const uint64_t version : versions) key.add(version);
+  return key;
+}
+
+BrushResult cloneColours(const BrushResult& strokes) {
+  BrushResult copy;
+  copy.r = strokes.r.clone();
+  copy.g = strokes.g.clone();
+  copy.b = strokes.b.clone();
+  copy.a = strokes.a.clone();
+  return copy;
+}
+
+FinishedPicture finish(const Look& look, const FramePlan& plan, const StagedFrame& frame) {
+  BrushResult brush = cloneColours(*frame.strokes);
+  FinishedPicture picture;
+  picture.outline = finishStrokes(plan, *frame.planes, frame.styles->surfaces, false, brush);
+  putBehindAndOver(look, *frame.planes, brush);
+  picture.frame.colour.x = std::move(brush.r);
+  picture.frame.colour.y = std::move(brush.g);
+  picture.frame.colour.z = std::move(brush.b);
+  picture.frame.alpha = std::move(brush.a);
+  scaleDown(look, plan, *frame.surfaces, picture.frame);
+  return picture;
+}
+
+}  // namespace
+
+LightStagesMade FrameStages::composeLight(const Look& look, const FramePlan& plan, size_t index,
+                                          const StagedFrame& frame, StageRun& run) {
+  const FrameLight& light = plan.lights[index];
+  LightStages& stages = lights_[light.name];
+  LightStagesMade made;
+  made.name = light.name;
+
+  StageKey shadow = keyOf({frame.planes.version, frame.surfaces.version, index});
+  addShadow(shadow, plan, light);
+  made.shadow = stages.shadow.at(run, "shadow of " + light.name, std::move(shadow), [&] {
+    const ShadowWork work{light, plan, frame.planes->lights[index], *frame.planes, *frame.surfaces};
+    return entryOf(light.method).function(work);
+  });
+
+  // Not a copy where nothing is smoothed.
+  made.visibility = {{made.shadow.value, &made.shadow->visibility}, made.shadow.version};
+  if (isSmoothed(light)) {
+    StageKey smooth = keyOf({made.shadow.version, frame.surfaces.version});
+    smooth.add(smoothTable, &light.passes.smooth);
+    made.visibility = stages.smoothed.at(run, "smoothing of " + light.name, std::move(smooth), [&] {
+      return smoothWithinSurfaces(made.shadow->visibility, *frame.surfaces, light.passes.smooth);
+    });
+  } else {
+    stages.smoothed = {};
+  }
+
+  StageKey tone = keyOf({frame.planes.version, frame.surfaces.version, made.visibility.version});
+  addLight(tone, light);
+  addWeight(tone, light);
+  tone.add(light.strength).add(look.passes.tone.light);
+  tone.add(shadeTable, &light.passes.shade).add(mergeTable, &light.passes.merge);
+  made.tone = stages.tone.at(run, "tone of " + light.name, std::move(tone), [&] {
+    return lightTone(look, light, *made.visibility, *frame.planes, *frame.surfaces, nullptr);
+  });
+  return made;
+}
+
+Made<Floats> FrameStages::composeTone(const Look& look, const FramePlan& plan,
+                                      const StagedFrame& frame, StageRun& run) {
+  if (oneToneIsAll(look, plan.lights)) {
+    sum_ = {};
+    return frame.lights.front().tone;
+  }
+  StageKey key;
+  key.add(look.passes.tone.light).add(mergeTable, &look.passes.merge);
+  for (size_t i = 0; i < plan.lights.size(); ++i) {
+    key.add(frame.lights[i].tone.version);
+    addWeight(key, plan.lights[i]);
+  }
+  return sum_.at(run, "sum of tones", std::move(key), [&] {
+    std::vector<View<const float>> tones;
+    for (const LightStagesMade& light : frame.lights) tones.push_back(light.tone->view());
+    return sumTones(look, plan.lights, tones);
+  });
+}
+
+void FrameStages::paint(const Look& look, const Made<LiveStrips>& strips, const FramePlan& plan,
+                        StagedFrame& frame, StageRun& run) {
+  StageKey strokes = keyOf({frame.planes.version, strips.version});
+  addStrokes(strokes, look, plan);
+  StageKey styles = strokes;
+  addStyleColours(styles, look);
+  frame.styles = styles_.at(run, "styles", std::move(styles), [&] {
+    DoubtedStyles doubted;
+    doubted.surfaces = styleSurfaces(look, strips->set, plan, *frame.planes, doubted.warnings);
+    return doubted;
+  });
+
+  const StyledSurfaces& styled = frame.styles->surfaces;
+  const Made<Floats> sum = composeTone(look, plan, frame, run);
+  StageKey tone = keyOf({sum.version, frame.planes.version});
+  for (const ToneParams& own : styled.tones) tone.add(toneTable, &own);
+  frame.tone = tone_.at(run, "tone", std::move(tone), [&] {
+    Floats adjusted = sum->clone();
+    adjustTone(adjusted, styled.anchorIndex, styled.tones);
+    return adjusted;
+  });
+
+  strokes.add(frame.tone.version);
+  frame.strokes = strokes_.at(run, "strokes", std::move(strokes), [&] {
+    return paintStyles(strips->set, *frame.planes, *frame.tone, styled, false);
+  });
+
+  StageKey picture = keyOf(
+      {frame.strokes.version, frame.styles.version, frame.planes.version, frame.surfaces.version});
+  picture.add(look.output.background).add(look.output.scale);
+  frame.picture =
+      picture_.at(run, "picture", std::move(picture), [&] { return finish(look, plan, frame); });
+}
+
+/// Lights that take no part any more give their memory back.
+void FrameStages::forgetLights(const FramePlan& plan) {
+  std::erase_if(lights_, [&](const auto& entry) {
+    return std::none_of(plan.lights.begin(), plan.lights.end(),
+                        [&](const FrameLight& light) { return light.name == entry.first; });
+  });
+}
+
+StagedFrame FrameStages::compose(const Look& look, const Made<LiveStrips>& strips,
+                                 const FramePlan& plan, const Made<FramePlanes>& planes,
+                                 StageRun& run) {
+  StagedFrame frame;
+  frame.planes = planes;
+  frame.warnings = inputWarnings(plan, *planes);
+  forgetLights(plan);
+  StageKey surfaces = keyOf({planes.version});
+  surfaces.add(surfacesTable, &look.passes.surfaces);
+  frame.surfaces = surfaces_.at(run, "surfaces", std::move(surfaces), [&] {
+    return labelSurfaces(planes->objectId, planes->normal, planes->position, look.passes.surfaces);
+  });
+  for (size_t i = 0; i < plan.lights.size(); ++i)
+    frame.lights.push_back(composeLight(look, plan, i, frame, run));
+  paint(look, strips, plan, frame, run);
+  const std::vector<std::string>& doubts = frame.styles->warnings;
+  frame.warnings.insert(frame.warnings.end(), doubts.begin(), doubts.end());
+  return frame;
+}
+
+}  // namespace kagefude

@@ -1,0 +1,160 @@
+#include "live/live_session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+
+#include "base/error.h"
+#include "base/files_read.h"
+#include "live/page_paths.h"
+#include "live/stage_keys.h"
+#include "look/write_look.h"
+
+namespace kagefude {
+namespace {
+
+/// The look as the page asks for it. It may be saved later, so it counts as an output.
+Look readAsked(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  const LooksAtOutputs looking;
+  Look look = readLook(path, overrides);
+  refuseForeignPaths(readLook(path, {}), look);
+  return look;
+}
+
+}  // namespace
+
+LiveSession::LiveSession(Settings settings) : settings_(std::move(settings)) {
+  if (settings_.inputs.empty()) throw InputError("there is no frame to show");
+  waiting_ = LiveChange{};
+  thread_ = std::thread([this] { run(); });
+}
+
+LiveSession::~LiveSession() {
+  end();
+  thread_.join();
+}
+
+void LiveSession::end() {
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  sharpening_.request_stop();
+  changed_.notify_all();
+}
+
+uint64_t LiveSession::change(LiveChange wanted) {
+  if (wanted.input >= settings_.inputs.size())
+    throw InputError(
+        fmt::format("there is no input {}; there are {}", wanted.input, settings_.inputs.size()));
+  const std::lock_guard lock(mutex_);
+  waiting_ = std::move(wanted);
+  sharpening_.request_stop();
+  changed_.notify_all();
+  return ++changes_;
+}
+
+std::vector<std::string> LiveSession::save(const std::vector<std::string>& overrides) const {
+  readAsked(settings_.look, overrides);
+  return saveLook(settings_.look, overrides);
+}
+
+LiveView LiveSession::view(uint64_t seen, std::chrono::milliseconds most) const {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, most, [&] { return ended_ || view_.version > seen; });
+  return view_;
+}
+
+void LiveSession::run() {
+  std::unique_lock lock(mutex_);
+  while (waitForWork(lock)) {
+    const bool whole = !waiting_;
+    if (waiting_) {
+      now_ = *std::exchange(waiting_, std::nullopt);
+      nowChange_ = changes_;
+    }
+    sharpening_ = std::stop_source();
+    lock.unlock();
+    answer(whole);
+    lock.lock();
+  }
+}
+
+/// True when there is a change to answer or a picture to sharpen, false at the end.
+bool LiveSession::waitForWork(std::unique_lock<std::mutex>& lock) {
+  const auto wanted = [this] { return ended_ || waiting_; };
+  if (!sharp_ && !changed_.wait_for(lock, settings_.rest, wanted)) return true;
+  while (!changed_.wait_for(lock, settings_.watch, wanted)) {
+    lock.unlock();
+    const bool same = filesNow() == files_;
+    lock.lock();
+    if (!same && !waiting_) waiting_ = now_;
+  }
+  return !ended_;
+}
+
+/// What the page's state is made of on disk.
+StageKey LiveSession::filesNow() const {
+  StageKey key;
+  if (!settings_.look.empty()) addFile(key, settings_.look);
+  const std::filesystem::path& frame = settings_.inputs[now_.input].path;
+  addFile(key, frame);
+  addFile(key, std::filesystem::path(frame).replace_extension(".json"));
+  for (const std::filesystem::path& strip : strips_) addFile(key, strip);
+  return key;
+}
+
+LiveFrame& LiveSession::frameOf(size_t input) {
+  const auto kept = std::find_if(frames_.begin(), frames_.end(),
+                                 [&](const auto& frame) { return frame.first == input; });
+  auto frame = kept != frames_.end() ? std::move(*kept) : std::pair(input, nullptr);
+  if (kept != frames_.end()) frames_.erase(kept);
+  while (frames_.size() >= std::max<size_t>(settings_.keptFrames, 1)) frames_.pop_back();
+  const LiveInput& source = settings_.inputs[input];
+  if (!frame.second)
+    frame.second = std::make_unique<LiveFrame>(source.path, source.frame, source.view);
+  return *frames_.emplace_front(std::move(frame)).second;
+}
+
+void LiveSession::answer(bool whole) {
+  std::shared_ptr<const LivePicture> picture;
+  std::string error;
+  sharp_ = true;  // after an error there is nothing to sharpen
+  files_ = filesNow();
+  try {
+    const Look look = readAsked(settings_.look, now_.overrides);
+    strips_.clear();
+    for (const StyleLook& style : look.styles)
+      if (!isBuiltinStrip(style.style.strip)) strips_.push_back(look.resolve(style.style.strip));
+    files_ = filesNow();
+    std::stop_token stop;
+    {
+      const std::lock_guard lock(mutex_);
+      if (whole) stop = sharpening_.get_token();
+    }
+    picture = std::make_shared<const LivePicture>(
+        frameOf(now_.input).compose(look, shelf_, whole ? 0 : settings_.size, stop));
+    sharp_ = picture->step == 1;
+  } catch (const Superseded&) {
+    sharp_ = false;
+    return;
+  } catch (const std::bad_alloc&) {
+    error = "out of memory";
+  } catch (const std::exception& problem) {
+    error = problem.what();
+  }
+  publish(std::move(picture), std::move(error));
+}
+
+void LiveSession::publish(std::shared_ptr<const LivePicture> picture, std::string error) {
+  const std::lock_guard lock(mutex_);
+  ++view_.version;
+  view_.change = nowChange_;
+  view_.error = std::move(error);
+  if (picture) {
+    view_.picture = std::move(picture);
+    view_.input = now_.input;
+  }
+  changed_.notify_all();
+}
+
+}  // namespace kagefude

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "live/live_frame.h"
+
+namespace kagefude {
+
+/// One frame that the page can show.
+struct LiveInput {
+  std::filesystem::path path;
+  int frame = 1;
+  std::string view{};
+};
+
+/// What the page wants to see.
+struct LiveChange {
+  std::vector<std::string> overrides;  ///< "section.key=value", laid over the look's file
+  size_t input = 0;                    ///< which of the inputs
+};
+
+/// What is to be seen now. `picture` is the last good one, whatever went wrong since.
+struct LiveView {
+  uint64_t version = 0;  ///< rises with every view
+  uint64_t change = 0;   ///< the change that it answers
+  std::shared_ptr<const LivePicture> picture;
+  size_t input = 0;   ///< of the picture
+  std::string error;  ///< what is wrong with the change; "" when the picture is its answer
+};
+
+/// A look on some frames, composed in a thread of its own whenever the page or a file changes.
+/// There is no queue: of changes that wait only the last is kept. A picture that was begun at the
+/// viewer's size is finished, so that a hand that never rests sees every picture that there is time
+/// for; sharpening to full size begins when nothing has changed for `rest`, and gives way to the
+/// next change between two stages. Files (look, strips, frame) are looked at four times a second
+/// while nothing else is done, which also sees changes on network drives. All functions may be
+/// called from any thread.
+class LiveSession {
+ public:
+  struct Settings {
+    std::filesystem::path look;     ///< empty: all defaults
+    std::vector<LiveInput> inputs;  ///< at least one
+    int size = 1024;                ///< longer side of the pictures while the hand moves
+    size_t keptFrames = 3;          ///< frames whose stages stay in memory
+    std::chrono::milliseconds rest{200};
+    std::chrono::milliseconds watch{250};
+  };
+
+  explicit LiveSession(Settings settings);
+  ~LiveSession();
+  LiveSession(const LiveSession&) = delete;
+  LiveSession& operator=(const LiveSession&) = delete;
+
+  /// Asks for a change in place of any that waits, and gives its number (1, 2 ...). Throws
+  /// InputError when there is no such input.
+  uint64_t change(LiveChange wanted);
+
+  /// Writes overrides into the look's file (saveLook), which is then watched like any edit. Gives
+  /// the overrides that bring back what was there. Throws as saveLook, and LookError for files that
+  /// the page may not name.
+  std::vector<std::string> save(const std::vector<std::string>& overrides) const;
+
+  /// The view as soon as its version is above `seen`, or what there is after `most` or once the
+  /// session ends.
+  LiveView view(uint64_t seen, std::chrono::milliseconds most) const;
+
+  /// Wakes all that wait in view(), and ends the thread after the stage at hand.
+  void end();
+
+  const Settings& settings() const { return settings_; }
+
+ private:
+  void run();
+  bool waitForWork(std::unique_lock<std::mutex>& lock);
+  void answer(bool whole);
+  LiveFrame& frameOf(size_t input);
+  StageKey filesNow() const;
+  void publish(std::shared_ptr<const LivePicture> picture, std::string error);
+
+  const Settings settings_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  // Guarded by mutex_:
+  bool ended_ = false;
+  std::optional<LiveChange> waiting_;
+  uint64_t changes_ = 0;
+  LiveView view_;
+  std::stop_source sharpening_;
+  // The thread's own:
+  LiveChange now_;
+  uint64_t nowChange_ = 0;
+  bool sharp_ = true;
+  StageKey files_;
+  std::vector<std::filesystem::path> strips_;
+  StripShelf shelf_;
+  std::deque<std::pair<size_t, std::unique_ptr<LiveFrame>>> frames_;
+  std::thread thread_;
+};
+
+}  // namespace kagefude

@@ -1,0 +1,239 @@
+// The page: what is turned goes to the program, what comes back is shown.
+import { History } from './history.js';
+import { Knobs } from './knobs.js';
+import { Changes, Pictures, pictureNow, probe, save, tables } from './link.js';
+import { ownStyle } from './own_style.js';
+import { Viewer } from './viewer.js';
+
+const at = (id) => document.getElementById(id);
+let stage = 'result';
+let state = null;
+let exposure = 0;
+
+const complain = (text) => {
+  at('error').textContent = text;
+  at('error').hidden = !text;
+};
+
+// What is turned.
+
+const changes = new Changes(complain);
+const history = new History(send);
+const spelled = () => [...history.overrides].map(([path, text]) => `${path}=${text}`);
+function send() {
+  at('save').disabled = !history.overrides.size;
+  changes.send({ overrides: spelled(), input: Number(at('input').value || 0) });
+}
+addEventListener('change', () => history.rest());
+addEventListener('beforeunload', (event) => history.overrides.size && event.preventDefault());
+
+async function saveAll() {
+  const written = [...history.overrides];
+  if (!written.length) return;
+  try {
+    const before = await save(spelled());
+    history.saved(written, before.map((text) => {
+      const equals = text.indexOf('=');
+      return [text.slice(0, equals), text.slice(equals + 1)];
+    }));
+  } catch (problem) {
+    complain(problem.message);
+  }
+}
+
+// What is pointed at.
+
+const viewer = new Viewer(at('canvas'), pointed, clicked);
+let probing = false;
+async function pointed(x, y) {
+  if (probing || !state) return;
+  probing = true;
+  try {
+    const found = await probe(x, y);
+    at('probe').textContent = found.object === null ? '' : describe(found);
+  } catch {
+    at('probe').textContent = '';
+  }
+  probing = false;
+}
+
+function describe({ x, y, object, material, style, strip, row, lights }) {
+  const named = [`${x}, ${y}   ${object}${material ? `   ${material}` : ''}`,
+    `${style === undefined ? 'no style' : `style ${style + 1}`}   ${strip}   row ${row.toFixed(3)}`];
+  for (const light of lights)
+    named.push(`${light.name}   visibility ${light.visibility.toFixed(3)}   tone ${light.tone.toFixed(3)}`);
+  return named.join('\n');
+}
+
+async function clicked(x, y) {
+  if (!state?.values) return;
+  const found = await probe(x, y);
+  at('picked').hidden = found.object === null;
+  if (found.object === null) return;
+  at('picked-name').textContent = found.object;
+  at('own').onclick = () => {
+    const number = state.values.style.length;
+    wantedScope = `style ${number}`;
+    history.add(ownStyle(found, state.values, list, number));
+    at('picked').hidden = true;
+  };
+  if (found.style === undefined) return;
+  const { object } = state.values.style[found.style].style;
+  at('picked').hidden = object.length === 1 && object[0] === found.object;
+  choose(`style ${found.style}`);
+}
+
+// The knobs.
+
+const list = await tables();
+const knobs = new Knobs(at('knobs'), list, (path, text) => history.set(path, text),
+  (path) => history.reset(path));
+
+let scopes = '';
+let wantedScope = null; // to be chosen when it is there
+function scopeNow() {
+  const [scope, index] = (at('scope').value || 'look').split(' ');
+  return { scope, index: Number(index) };
+}
+
+function choose(scope) {
+  at('scope').value = scope;
+  buildKnobs();
+  showValues();
+}
+
+function buildKnobs() {
+  const { scope, index } = scopeNow();
+  knobs.build(scope, index);
+  knobs.search(at('search').value);
+}
+
+function showValues() {
+  const { scope, index } = scopeNow();
+  const { values } = state;
+  knobs.show(scope === 'look' ? values.look : values[scope][index], history.overrides);
+}
+
+function showScopes({ light, style }) {
+  const names = [['look', 'whole look'],
+    ...light.map((l, i) => [`light ${i}`, `light ${l.light.name}`]),
+    ...style.map((s, i) => [`style ${i}`,
+      `style ${i + 1} ${[...s.style.object, ...s.style.material].join(', ')}`])];
+  const text = JSON.stringify(names);
+  if (text === scopes) return;
+  scopes = text;
+  const has = (scope) => names.some(([value]) => value === scope);
+  const chosen = [wantedScope, at('scope').value].find(has) ?? 'look';
+  if (has(wantedScope)) wantedScope = null;
+  at('scope').replaceChildren(...names.map(([value, name]) => new Option(name, value)));
+  at('scope').value = chosen;
+  buildKnobs();
+}
+
+// The picture.
+
+const viewing = () => {
+  const [display, view] = JSON.parse(at('display').value || '["",""]');
+  return { exposure, display, view };
+};
+
+function showStages(names) {
+  at('stages').replaceChildren(...names.map((name) => {
+    const tab = Object.assign(document.createElement('button'), { textContent: name, role: 'tab' });
+    tab.setAttribute('aria-selected', name === stage);
+    tab.onclick = () => {
+      stage = name;
+      pictures.again();
+    };
+    return tab;
+  }));
+}
+
+/** Fills a list once with [value, text]; what is chosen stays. */
+function fill(select, options) {
+  const text = JSON.stringify(options);
+  if (select.dataset.options === text) return;
+  select.dataset.options = text;
+  const chosen = select.value;
+  select.replaceChildren(...options.map(([value, name]) => new Option(name, value)));
+  if (options.some(([value]) => value === chosen)) select.value = chosen;
+}
+
+function showLists({ inputs, input, displays, stages }) {
+  fill(at('input'), inputs.map((name, i) => [String(i), name]));
+  if (document.activeElement !== at('input')) at('input').value = input ?? 0;
+  const views = Object.entries(displays).flatMap(([display, names]) =>
+    names.map((view) => [JSON.stringify([display, view]), `${display}, ${view}`]));
+  fill(at('display'), [['["",""]', "the look's"], ...views]);
+  fill(at('against'), [['', 'off'], ...(stored ? [['A', 'stored A']] : []),
+    ...stages.map((name) => [`stage ${name}`, name])]);
+}
+
+let shownPixels = null;
+let stored = null;
+async function showAgainst() {
+  const against = at('against').value;
+  if (!against.startsWith('stage ')) return viewer.against(against ? stored : null);
+  const { pixels } = await pictureNow({ ...viewing(), stage: against.slice(6) });
+  viewer.against(pixels);
+}
+
+const pictures = new Pictures(() => ({ stage, ...viewing() }), (now, pixels) => {
+  state = now;
+  complain(now.error);
+  if (!now.values) return;
+  showLists(now);
+  if (pixels) {
+    shownPixels = pixels;
+    viewer.show(pixels, now.size.map((side) => side * now.step));
+    if (at('against').value) showAgainst();
+  }
+  showStages(now.stages);
+  showScopes(now.values);
+  showValues();
+  at('status').textContent =
+    `${now.painted.join(' × ')}${now.step > 1 ? ` (every ${now.step} pixels)` : ''}` +
+    (now.warnings.length ? `   ${now.warnings.length} warnings` : '');
+  at('status').title = now.warnings.join('\n');
+}, complain);
+
+// What is pressed.
+
+at('scope').onchange = () => choose(at('scope').value);
+at('search').oninput = () => knobs.search(at('search').value);
+at('input').onchange = send;
+at('fit').onclick = () => viewer.fit();
+at('one').onclick = () => viewer.oneToOne();
+at('undo').onclick = () => history.undo();
+at('redo').onclick = () => history.redo();
+at('save').onclick = saveAll;
+at('display').onchange = () => pictures.again();
+at('against').onchange = showAgainst;
+at('store').onclick = () => {
+  stored = shownPixels;
+  showLists(state);
+  at('against').value = 'A';
+  showAgainst();
+};
+at('exposure').oninput = () => {
+  exposure = Number(at('exposure').value);
+  at('exposure-value').textContent = exposure.toFixed(1);
+  pictures.again();
+};
+addEventListener('keydown', (event) => {
+  const typing = event.target.matches('input:not([type=range]):not([type=checkbox]), select');
+  const key = event.key.toLowerCase();
+  if ((event.ctrlKey || event.metaKey) && key === 's') {
+    event.preventDefault();
+    saveAll();
+  } else if (typing) {
+    return;
+  } else if ((event.ctrlKey || event.metaKey) && key === 'z') {
+    event.preventDefault();
+    if (event.shiftKey) history.redo();
+    else history.undo();
+  } else if (key === 'f') viewer.fit();
+  else if (key === '1') viewer.oneToOne();
+});
+
+pictures.run();

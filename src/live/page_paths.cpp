@@ -1,0 +1,62 @@
+#include "live/page_paths.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/error.h"
+#include "base/folder_bound.h"
+#include "compositor/strip_set.h"
+
+namespace kagefude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every file that a look names but for strips, with its key.
+std::set<std::pair<std::string, std::string>> filesNamed(const Look& look) {
+  std::set<std::pair<std::string, std::string>> named{{"colour.config", look.colour.config},
+                                                      {"shadow.blob", look.shadow.blob}};
+  for (const LightLook& light : look.lights) {
+    named.insert({"light.shadow.blob", light.shadow.blob});
+    named.insert({"light.depth_map", light.light.depthMap});
+  }
+  for (const std::string& file : look.frame.files) named.insert({"frame.files", file});
+  return named;
+}
+
+bool liesInFolder(const fs::path& folder, const std::string& name) {
+  if (!staysInFolder(name)) return false;
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(folder.empty() ? "." : folder, error);
+  if (error) return false;
+  const fs::path file = fs::weakly_canonical(root / name, error);
+  if (error) return false;
+  const auto [end, at] = std::mismatch(root.begin(), root.end(), file.begin(), file.end());
+  return end == root.end() && at != file.end();
+}
+
+}  // namespace
+
+void refuseForeignPaths(const Look& onDisk, const Look& asked) {
+  const auto known = filesNamed(onDisk);
+  for (const auto& [key, file] : filesNamed(asked)) {
+    if (file.empty() || known.contains({key, file})) continue;
+    throw LookError(fmt::format(
+        "{} = \"{}\" cannot be set from the page; write it into the look's file", key, file));
+  }
+  std::set<std::string> strips;
+  for (const StyleLook& style : onDisk.styles) strips.insert(style.style.strip);
+  for (const StyleLook& style : asked.styles) {
+    const std::string& strip = style.style.strip;
+    if (isBuiltinStrip(strip) || strips.contains(strip)) continue;
+    if (!liesInFolder(asked.folder, strip))
+      throw LookError(fmt::format(
+          "style.strip = \"{}\" is not in the look's folder; the page can only choose strips that "
+          "lie there",
+          strip));
+  }
+}
+
+}  // namespace kagefude

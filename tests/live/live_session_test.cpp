@@ -1,0 +1,172 @@
+#include "live/live_session.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "compositor/sweep_frame.h"
+#include "live/live_page.h"
+#include "live/show_stage.h"
+
+namespace kagefude {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Session : public ::testing::Test, protected testing::SweepFrame {
+ protected:
+  LiveSession::Settings settings() const {
+    LiveSession::Settings all;
+    all.look = frame.folder / "look.toml";
+    all.inputs = {{frame.write(), 1}};
+    all.rest = 10ms;
+    all.watch = 10ms;
+    return all;
+  }
+  void write(const std::string& look) const { frame.folder.write("look.toml", look); }
+
+  /// The first view that `fits` holds for.
+  template <class Fits>
+  static LiveView viewWhere(const LiveSession& session, const Fits& fits) {
+    const auto end = std::chrono::steady_clock::now() + 30s;
+    LiveView view;
+    while (std::chrono::steady_clock::now() < end) {
+      view = session.view(view.version, 1000ms);
+      if (fits(view)) return view;
+    }
+    ADD_FAILURE() << "no such view came; the last: " << view.error;
+    return view;
+  }
+
+  static std::string shown(const LiveView& view) {
+    return showStage(*view.picture, "result").bytes;
+  }
+};
+
+TEST_F(Session, OfManyChangesTheLastIsSeenAndNoQueueBuildsUp) {
+  write("[[style]]\nstrip = \"builtin:soft\"\n");
+  LiveSession session(settings());
+  uint64_t last = 0;
+  for (int i = 0; i < 500; ++i)
+    last = session.change({{fmt::format("brush.contrast={}", 0.002 * i)}});
+  EXPECT_EQ(last, 500u);
+  const LiveView view = viewWhere(session, [&](const LiveView& v) { return v.change == last; });
+  EXPECT_FLOAT_EQ(view.picture->look->passes.brush.contrast, 0.998f);
+  // Each was one change and one picture at most; those that waited were replaced.
+  EXPECT_LE(view.version, 501u);
+}
+
+TEST_F(Session, SharpensWhenTheHandRests) {
+  write("");
+  LiveSession::Settings small = settings();
+  small.size = 8;
+  LiveSession session(small);
+  const LiveView view =
+      viewWhere(session, [](const LiveView& v) { return v.picture && v.picture->step == 1; });
+  const FrameResult whole = frame.comp("");
+  ASSERT_EQ(view.picture->stages.picture->frame.colour.x.width(), width);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      ASSERT_EQ(view.picture->stages.picture->frame.colour.x(x, y), whole.colour.x(x, y));
+}
+
+TEST_F(Session, AnEditInTheArtistsEditorShowsByItself) {
+  write("brush.contrast = 0.25\n");
+  LiveSession session(settings());
+  viewWhere(session, [](const LiveView& v) { return v.picture != nullptr; });
+  write("brush.contrast = 0.75\n[scene]\n");
+  const LiveView view = viewWhere(session, [](const LiveView& v) {
+    return v.picture && v.picture->look->passes.brush.contrast == 0.75f;
+  });
+  EXPECT_EQ(view.error, "");
+}
+
+TEST_F(Session, ABrokenLookShowsItsLineOverTheLastGoodPicture) {
+  write("[[style]]\nstrip = \"builtin:soft\"\n");
+  LiveSession session(settings());
+  const LiveView good = viewWhere(session, [](const LiveView& v) { return v.picture != nullptr; });
+  write("[[style]]\nstrip = \"builtin:soft\"\n\n[brush]\ncontrst = 1\n");
+  const LiveView broken = viewWhere(session, [](const LiveView& v) { return !v.error.empty(); });
+  EXPECT_NE(broken.error.find("look.toml:5"), std::string::npos) << broken.error;
+  EXPECT_EQ(shown(broken), shown(good));
+  write("[[style]]\nstrip = \"builtin:cel\"\n");
+  const LiveView mended = viewWhere(session, [](const LiveView& v) { return v.error.empty(); });
+  EXPECT_NE(shown(mended), shown(good));
+}
+
+TEST_F(Session, ThePageCannotReachOtherFiles) {
+  write("[[style]]\nstrip = \"builtin:soft\"\n");
+  LiveSession session(settings());
+  const uint64_t change = session.change({{"style[0].strip=/etc/passwd"}});
+  const LiveView view = viewWhere(session, [&](const LiveView& v) { return v.change == change; });
+  EXPECT_NE(view.error.find("not in the look's folder"), std::string::npos) << view.error;
+  EXPECT_THROW(session.change({{}, 1}), InputError);
+}
+
+TEST_F(Session, EndsWhileSomebodyWaits) {
+  write("");
+  LiveSession session(settings());
+  const LiveView now = viewWhere(session, [](const LiveView& v) { return v.picture != nullptr; });
+  std::thread waiter([&] { session.view(now.version + 1000000, 60s); });
+  session.end();
+  waiter.join();
+}
+
+TEST_F(Session, ThePageGetsStateAndPixelsInOneAnswer) {
+  write("[[style]]\nobject = [\"Ball\"]\nstrip = \"builtin:soft\"\n");
+  LiveSession session(settings());
+  viewWhere(session, [](const LiveView& v) { return v.picture != nullptr; });
+  const auto get = [&](const std::string& path, std::map<std::string, std::string> query) {
+    return answerPage(session, {.method = "GET", .path = path, .query = std::move(query)});
+  };
+  const auto stateOf = [](const std::string& body) {
+    size_t length = 0;
+    for (size_t i = 0; i < 4; ++i) length |= size_t{static_cast<unsigned char>(body[i])} << (8 * i);
+    return nlohmann::json::parse(body.substr(4, length));
+  };
+  for (const std::string stage : {"normals", "objects", "surfaces", "visibility.Key", "tone.Key",
+                                  "brush.tone", "albedo", "result"}) {
+    const HttpResponse answer = get("/picture", {{"stage", stage}});
+    ASSERT_EQ(answer.status, 200) << answer.body;
+    const nlohmann::json state = stateOf(answer.body);
+    EXPECT_EQ(state["size"], (nlohmann::json{width, height})) << stage;
+    EXPECT_EQ(answer.body.size(), 4 + state.dump(-1, ' ', true).size() + width * height * 4)
+        << stage;
+    EXPECT_EQ(state["values"]["style"][0]["style"]["strip"], "builtin:soft");
+  }
+  EXPECT_EQ(get("/picture", {{"stage", "nothing"}}).status, 400);
+  EXPECT_EQ(get("/picture", {{"exposure", "much"}}).status, 400);
+  const nlohmann::json ball = nlohmann::json::parse(get("/probe", {{"x", "8"}, {"y", "12"}}).body);
+  EXPECT_EQ(ball["object"], "Ball");
+  EXPECT_EQ(ball["style"], 0);
+  EXPECT_EQ(ball["lights"][0]["name"], "Key");
+  const nlohmann::json ground =
+      nlohmann::json::parse(get("/probe", {{"x", "20"}, {"y", "12"}}).body);
+  EXPECT_EQ(ground["object"], "Ground");
+  EXPECT_FALSE(ground.contains("style"));
+  EXPECT_EQ(nlohmann::json::parse(get("/probe", {{"x", "-1"}, {"y", "99"}}).body)["object"],
+            nullptr);
+}
+
+TEST_F(Session, ThePageIsAnsweredOrRefusedInWords) {
+  write("");
+  LiveSession session(settings());
+  const auto ask = [&](const std::string& method, const std::string& path,
+                       const std::string& body) {
+    return answerPage(session, {.method = method, .path = path, .body = body}).status;
+  };
+  for (const char* path :
+       {"/", "/main.js", "/link.js", "/viewer.js", "/knobs.js", "/style.css", "/tables"})
+    EXPECT_EQ(ask("GET", path, ""), 200) << path;
+  for (const char* path : {"/look.toml", "/main.js/", "/page/main.js", ""})
+    EXPECT_EQ(ask("GET", path, ""), 404) << path;
+  EXPECT_EQ(ask("POST", "/main.js", ""), 404);
+  EXPECT_EQ(ask("POST", "/change", "{\"overrides\": [\"brush.contrast=0.5\"]}"), 200);
+  for (const char* body :
+       {"", "{", "[]", "{\"overrides\": 3}", "{\"overrides\": [], \"input\": \"x\"}",
+        "{\"overrides\": [], \"input\": 7}"})
+    EXPECT_EQ(ask("POST", "/change", body), 400) << body;
+}
+
+}  // namespace
+}  // namespace kagefude
