@@ -6,10 +6,12 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "compositor/casting_scene.h"
 #include "compositor/doubt_bounds.h"
 #include "compositor/position_pass.h"
 #include "compositor/rest_pass.h"
+#include "compositor/unseen_things.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
@@ -134,6 +136,17 @@ void clearUnpainted(const FramePlan& plan, FramePlanes& planes) {
   for (Labels& rank : planes.coverageIds) clearIds(inCryptomatte, rank.view());
 }
 
+void noteUnseen(const FramePlan& plan, FramePlanes& planes) {
+  const std::vector<std::string> unseen = unseenThings(plan, planes);
+  if (unseen.empty()) return;
+  planes.warnings.push_back(fmt::format(
+      "things cover pixels but stand at no pixel's centre, so they are not painted and what is "
+      "behind "
+      "them is ({}): they are more than half see-through, or thinner than a pixel; make them more "
+      "opaque, or export larger frames (--scale)",
+      listNames(unseen)));
+}
+
 }  // namespace
 
 FramePlanes readFramePlanes(const FramePlan& plan) {
@@ -215,6 +228,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
   clearWithoutDepth(plan, planes);
+  noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
   checkSpaces(plan, planes);
   return planes;

@@ -50,6 +50,9 @@ class StrokeGrounds {
   };
 
   V3f placeAt(const Surface& surface, const FramePlanes& planes, int x, int y) const;
+  /// Places of pixels [first, end) of row y, all of one surface that lies at rest.
+  void layRun(const Surface& surface, const FramePlanes& planes, int y, int first, int end,
+              Vec3Plane& result) const;
 
   const FramePlan& plan_;
   std::vector<Surface> surfaces_;

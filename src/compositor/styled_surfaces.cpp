@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <unordered_map>
 
@@ -235,6 +236,32 @@ void noteUnbounded(const std::set<std::string>& objects, std::vector<std::string
       listNames({objects.begin(), objects.end()})));
 }
 
+/// Surfaces without any diffuse colour (glass, metal), of which a strip that multiplies makes
+/// black.
+void noteBlack(const FramePlan& plan, const FramePlanes& planes, const SurfaceIndex& index,
+               const std::vector<bool>& multiplies, std::vector<std::string>& warnings) {
+  if (planes.albedo.empty() || std::none_of(multiplies.begin(), multiplies.end(), std::identity()))
+    return;
+  std::vector<bool> black = multiplies;
+  for (int y = 0; y < planes.height; ++y)
+    for (int x = 0; x < planes.width; ++x) {
+      const uint16_t number = index.plane(x, y);
+      if (number != 0 && black[number - 1u] && planes.albedo.view()(x, y) != V3f(0.0f))
+        black[number - 1u] = false;
+    }
+  std::set<std::string> names;
+  for (size_t i = 0; i < black.size(); ++i)
+    if (const std::string name = plan.objectName(index.surfaces[i].object);
+        black[i] && !name.empty())
+      names.insert(name);
+  if (names.empty()) return;
+  warnings.push_back(
+      fmt::format("surfaces have no diffuse colour, as glass and metal have none ({}), so a strip "
+                  "that multiplies "
+                  "the colour is black there; give them a style with colour = \"replace\"",
+                  listNames({names.begin(), names.end()})));
+}
+
 }  // namespace
 
 StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const FramePlan& plan,
@@ -273,6 +300,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
   }
   result.rest = grounds.places(planes, index.plane);
   noteUnbounded(unbounded, warnings);
+  noteBlack(plan, planes, index, result.multiplies, warnings);
   grounds.noteMissing(warnings);
   result.anchorIndex = std::move(index.plane);
   return result;

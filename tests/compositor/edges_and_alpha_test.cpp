@@ -1,4 +1,5 @@
 // What stands where nothing is painted, how strokes end there, and the picture's alpha.
+#include <algorithm>
 #include <cstring>
 
 #include "compositor/map_frame.h"
@@ -65,6 +66,42 @@ TEST_F(EdgesAndAlpha, TransparentLeavesTheBeautyOut) {
   const FrameResult result = frame.comp(transparent);
   EXPECT_EQ(colourAt(result, 2, 1), V3f(0, 0, 0));
   EXPECT_EQ(result.alpha(2, 1), 0.0f);
+}
+
+TEST_F(EdgesAndAlpha, AThingThatCoversPixelsButStandsAtNoneIsNamed) {
+  const auto said = [&] {
+    const FrameResult result = frame.comp("");
+    return std::count_if(result.warnings.begin(), result.warnings.end(), [](const auto& warning) {
+      return warning.find("stand at no pixel's centre") != std::string::npos &&
+             warning.find("(Veil)") != std::string::npos;
+    });
+  };
+  addCryptomatte(1.0f);
+  frame.addObject("Veil", 2, {-1, -1, 0}, {1, 1, 0});
+  frame.sidecar["objects"][1]["crypto"] = "3f800002";
+  const uint32_t bits = 0x3f800002;
+  float id;
+  std::memcpy(&id, &bits, sizeof id);
+  Floats& ids = frame.plane("CryptoObject00.b");
+  Floats& shares = frame.plane("CryptoObject00.a");
+  const auto cover = [&](float share, int rows) {
+    for (int y = 4; y < 4 + rows; ++y)
+      for (int x = 0; x < MapFrame::side; ++x) {
+        ids(x, y) = id;
+        shares(x, y) = share;
+        frame.plane("CryptoObject00.g")(x, y) = 1.0f - share;
+      }
+  };
+  EXPECT_EQ(said(), 0) << "covers nothing";
+  cover(0.75f, 1);
+  EXPECT_EQ(said(), 0) << "6 pixels are too few for a word";
+  cover(0.75f, 4);
+  EXPECT_EQ(said(), 1) << "24 pixels";
+  frame.plane("IndexOB.X")(3, 4) = 2.0f;
+  EXPECT_EQ(said(), 0) << "one pixel shows it";
+  frame.plane("IndexOB.X")(3, 4) = 1.0f;
+  frame.sidecar["objects"][1].erase("crypto");
+  EXPECT_EQ(said(), 0) << "a thing that nothing names";
 }
 
 TEST_F(EdgesAndAlpha, StrokesEndByTheirCryptomatteCoverage) {
