@@ -8,11 +8,14 @@ namespace {
 
 constexpr double fewestPixels = 16.0;
 
-/// Names by the Cryptomatte's ids.
+/// Names by the Cryptomatte's ids, of what is to be painted.
 std::map<uint32_t, std::string> namesOfCovering(const FramePlan& plan) {
   std::map<uint32_t, std::string> names;
-  for (const auto& [id, name] : plan.objectNames)
+  for (const auto& [id, name] : plan.objectNames) {
+    const SidecarObject* const object = plan.findObject(id);
+    if (object && !object->painted) continue;
     if (const uint32_t crypto = plan.cryptomatteIdOf(id)) names.emplace(crypto, name);
+  }
   return names;
 }
 
