@@ -269,6 +269,7 @@ test('a light is dragged where the frame has the shapes that cast its shadow', a
     await page.click('#redo');
     await shownWhere((now) => now === moved, 'the moved light again');
   } finally {
+    await page.close(); // which else would complain that nobody answers
     served.kill('SIGINT');
   }
 });
