@@ -222,7 +222,10 @@ test('strips are chosen from their pictures', async () => {
   const first = await shownWhere(() => true, 'a picture');
   await page.mouse.click(...await placeOf('Vase'));
   await page.click('.knob .open');
-  await page.waitForFunction(() => document.querySelectorAll('.strips canvas').length === 4);
+  // A canvas that nothing was drawn to is 300 wide.
+  await page.waitForFunction(() =>
+    ![null, undefined, 300].includes(
+      document.querySelector('.strips button[title="builtin:cel"] canvas')?.width));
   await page.click('.strips button[title="builtin:cel"]');
   await shownWhere((now) => now !== first, 'the vase in another strip');
   assert.equal(await knob('style[0].strip').inputValue(), 'builtin:cel');
@@ -266,6 +269,7 @@ test('a light is dragged where the frame has the shapes that cast its shadow', a
     await page.click('#redo');
     await shownWhere((now) => now === moved, 'the moved light again');
   } finally {
+    await page.close(); // which else would complain that nobody answers
     served.kill('SIGINT');
   }
 });
