@@ -261,9 +261,23 @@ def displaces(material):
     return method != 'BUMP'
 
 
+def picks_half_seen():
+    """Whether data passes of what is partly see-through take it or what is behind it at random, as from
+    5.0 on; before, they take what is at least half opaque."""
+    return bpy.app.version >= (5, 0, 0)
+
+
 def add_number_output(group, name):
-    """One more output of a node group; groups got an interface of their own in 4.0."""
+    _add_number(group, name, 'OUTPUT')
+
+
+def add_number_input(group, name):
+    _add_number(group, name, 'INPUT')
+
+
+def _add_number(group, name, way):
+    """One more place of a node group; groups got an interface of their own in 4.0."""
     if hasattr(group, "interface"):
-        group.interface.new_socket(name, in_out='OUTPUT', socket_type='NodeSocketFloat')
+        group.interface.new_socket(name, in_out=way, socket_type='NodeSocketFloat')
     else:
-        group.outputs.new('NodeSocketFloat', name)
+        (group.outputs if way == 'OUTPUT' else group.inputs).new('NodeSocketFloat', name)

@@ -18,6 +18,7 @@ THROUGH = "kagefude through"  # output of node groups: share of light that passe
 MOST_LEAVES = 128             # transparent surfaces behind each other
 # Data passes of a view layer take a surface from an alpha of one half on; so do masks.
 OPAQUE_BELOW = 0.500001
+WHOLE_BELOW = 1e-6
 
 
 def blocks_otherwise(material):
@@ -31,6 +32,20 @@ def blocks_otherwise(material):
     if output.inputs["Displacement"].is_linked and compat.displaces(material):
         return True
     return _is_seen_through(output.inputs["Surface"])
+
+
+def shows(material):
+    """Whether data passes surely take the material's surface where it is hit: a float or a socket of its
+    tree, 1 or 0. They go on through what is less than half opaque, or through any part at random."""
+    tree = material.node_tree
+    output = tree.get_output_node('CYCLES')
+    if output is None or not _is_seen_through(output.inputs["Surface"]):
+        return 1.0
+    through = _through(tree, output.inputs["Surface"])
+    limit = WHOLE_BELOW if compat.picks_half_seen() else OPAQUE_BELOW
+    if isinstance(through, float):
+        return float(through < limit)
+    return _math(tree, 'LESS_THAN', through, limit)
 
 
 def is_volume_only(item):

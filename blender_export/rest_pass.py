@@ -8,7 +8,8 @@ instances too, which share their object's space; so that they do not repeat each
 differs from instance to instance travels along (Object Info's Random).
 
 The node group that writes both AOVs stands in each of the artist's materials, so holes and
-displacement are as they render. Materials and attributes are changed in the exporting Blender only,
+displacement are as they render. Cycles adds up what a ray meets on its way to the surface that its
+other passes take; so what may not be that writes 0. Materials and attributes are changed in the exporting Blender only,
 which never saves.
 """
 
@@ -16,9 +17,12 @@ from array import array
 
 import bpy
 
+from . import compat, mask_materials
+
 REST, RANDOM = "Rest", "InstanceRandom"
 FLAG = "kagefude_rest"         # custom property of an object: it has the attribute
 ATTRIBUTE = "rest_position"
+SHOWS = "Shows"                # input of the node group: 1 where the surface is sure to be the pixel's
 PLAIN = "kagefude plain"       # material of faces that have none, which renders as none does
 
 # Modifiers that move what is there. Others keep places or make new geometry.
@@ -47,8 +51,19 @@ def prepare(objects):
             item[FLAG] = 1.0
     for material in {slot.material for item in objects for slot in item.material_slots}:
         if material and material.use_nodes and material.node_tree:
-            material.node_tree.nodes.new('ShaderNodeGroup').node_tree = group
+            _put_into(material, group)
     return [(REST, 'COLOR'), (RANDOM, 'VALUE')]
+
+
+def _put_into(material, group):
+    tree = material.node_tree
+    node = tree.nodes.new('ShaderNodeGroup')
+    node.node_tree = group
+    shows = mask_materials.shows(material)
+    if isinstance(shows, float):
+        node.inputs[SHOWS].default_value = shows
+    else:
+        tree.links.new(shows, node.inputs[SHOWS])
 
 
 def bounds(item):
@@ -90,9 +105,11 @@ def _plain():
 
 
 def _group():
-    """Rest is flag * attribute + (1 - flag) * place: exactly one of the two."""
+    """Rest is flag * attribute + (1 - flag) * place: exactly one of the two, where the surface shows."""
     tree = bpy.data.node_groups.new("kagefude rest", 'ShaderNodeTree')
+    compat.add_number_input(tree, SHOWS)
     new, link = tree.nodes.new, tree.links.new
+    shows = new('NodeGroupInput').outputs[SHOWS]
     flag, rest = new('ShaderNodeAttribute'), new('ShaderNodeAttribute')
     flag.attribute_type, flag.attribute_name = 'OBJECT', FLAG
     rest.attribute_type, rest.attribute_name = 'GEOMETRY', ATTRIBUTE
@@ -110,8 +127,14 @@ def _group():
         link(vector, part.inputs[0])
         link(factor, part.inputs["Scale"])
         link(part.outputs[0], total.inputs[place])
-    link(total.outputs[0], _aov(tree, REST).inputs["Color"])
-    link(new('ShaderNodeObjectInfo').outputs["Random"], _aov(tree, RANDOM).inputs["Value"])
+    shown, random = new('ShaderNodeVectorMath'), new('ShaderNodeMath')
+    shown.operation, random.operation = 'SCALE', 'MULTIPLY'
+    link(total.outputs[0], shown.inputs[0])
+    link(shows, shown.inputs["Scale"])
+    link(shown.outputs[0], _aov(tree, REST).inputs["Color"])
+    link(new('ShaderNodeObjectInfo').outputs["Random"], random.inputs[0])
+    link(shows, random.inputs[1])
+    link(random.outputs[0], _aov(tree, RANDOM).inputs["Value"])
     return tree
 
 

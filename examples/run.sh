@@ -23,6 +23,8 @@ examples/make_strips.sh "$kagefude" $out/strips >/dev/null
 
 # Prints the frame range of a shot.
 frames_of() { [ "$1" = still_life ] && echo 1 || echo 1-24; }
+# Prints masks and scale of a shot's export: the walk's hair and grass are thin, and its sun is small.
+detail_of() { [ "$1" = walk ] && echo "--masks disc:5 --scale 2" || echo "--masks disc:9"; }
 
 for shot in "${shots[@]}"; do
   folder=$out/$shot
@@ -33,7 +35,7 @@ for shot in "${shots[@]}"; do
     blender -b --factory-startup --python-exit-code 3 -P "examples/$shot.py" -- \
       "$folder/$shot.blend" >"$folder/blender.log"
     blender -b "$folder/$shot.blend" --python-exit-code 3 -P blender_export/export_aovs.py -- \
-      --output "$folder/aovs/$shot.####.exr" --frames "$(frames_of "$shot")" --masks disc:9 \
+      --output "$folder/aovs/$shot.####.exr" --frames "$(frames_of "$shot")" $(detail_of "$shot") \
       2>&1 | tee -a "$folder/blender.log" | sed -n -u '/^Progress:\|^Error/p'
     touch "$folder/rendered"
   fi

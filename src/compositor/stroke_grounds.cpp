@@ -26,6 +26,28 @@ bool hasUv(const FramePlanes& planes, int x, int y) {
   return std::isfinite(u) && std::isfinite(v) && (u != 0.0f || v != 0.0f);
 }
 
+/// Calls `each(number, first, end)` for every run of one surface's pixels in row y.
+template <class Each>
+void forRuns(View<const uint16_t> index, int y, const Each& each) {
+  const uint16_t* row = index.row(y);
+  for (int first = 0, end; first < index.width; first = end) {
+    const uint16_t number = row[first];
+    for (end = first + 1; end < index.width && row[end] == number;) ++end;
+    if (number != 0) each(number, first, end);
+  }
+}
+
+/// Images of directions under the linear part of `t`, as Transform::direction gives them.
+void carryDirections(const Transform& t, const float* x, const float* y, const float* z, int count,
+                     float* const* out) {
+  for (int k = 0; k < 3; ++k) {
+    const double a = t.m[k][0], b = t.m[k][1], c = t.m[k][2];
+    float* __restrict to = out[k];
+    for (int i = 0; i < count; ++i)
+      to[i] = static_cast<float>(a * double{x[i]} + b * double{y[i]} + c * double{z[i]});
+  }
+}
+
 /// Along an object's axes, from its origin.
 Transform alongAxes(const ObjectAxes& axes) {
   Transform result;
@@ -65,13 +87,17 @@ StrokeGrounds::StrokeGrounds(const FramePlan& plan, const FramePlanes& planes,
     : plan_(plan), surfaces_(surfaces) {
   if (planes.rest.empty() && planes.u.empty()) return;
   for (int y = 0; y < index.height; ++y)
-    for (int x = 0; x < index.width; ++x) {
-      if (index(x, y) == 0) continue;
-      Surface& surface = surfaces_[index(x, y) - 1u];
-      ++surface.pixels;
-      surface.withRest += hasRest(planes, x, y) ? 1 : 0;
-      surface.withUv += hasUv(planes, x, y) ? 1 : 0;
-    }
+    forRuns(index, y, [&](uint16_t number, int first, int end) {
+      size_t withRest = 0, withUv = 0;
+      for (int x = first; x < end; ++x) {
+        withRest += hasRest(planes, x, y) ? 1 : 0;
+        withUv += hasUv(planes, x, y) ? 1 : 0;
+      }
+      Surface& surface = surfaces_[number - 1u];
+      surface.pixels += static_cast<size_t>(end - first);
+      surface.withRest += withRest;
+      surface.withUv += withUv;
+    });
 }
 
 bool StrokeGrounds::choose(size_t number, uint32_t object, BrushParams& params) {
@@ -95,12 +121,16 @@ bool StrokeGrounds::choose(size_t number, uint32_t object, BrushParams& params) 
   return true;
 }
 
-void StrokeGrounds::lay(size_t number, const BrushSubject& subject, BrushAnchor& anchor) {
+void StrokeGrounds::lay(size_t number, uint32_t object, const BrushSubject& subject,
+                        BrushAnchor& anchor) {
   Surface& surface = surfaces_[number - 1];
   surface.placeFromWorld = alongAxes(anchor.object);
-  if (surface.ground == Ground::rest && !plan_.restInWorld)
+  const SidecarObject* described = plan_.findObject(object);
+  if (surface.ground == Ground::rest && !(described && plan_.restInWorld)) {
+    const Transform worldFromRest = described ? subject.worldFromObject : Transform();
     surface.placeFromRest =
-        withoutMove(withoutMove(surface.placeFromWorld) * withoutMove(subject.worldFromObject));
+        withoutMove(withoutMove(surface.placeFromWorld) * withoutMove(worldFromRest));
+  }
   if (!(surface.uvSize > 0.0f)) surface.uvSize = longestSide(subject);
   anchor.placesTurned = surface.ground == Ground::uv || plan_.restInWorld;
   if (!(surface.shift > 0.0f)) return;
@@ -133,15 +163,28 @@ Vec3Plane StrokeGrounds::places(const FramePlanes& planes, View<const uint16_t> 
   const auto atRest = [](const Surface& s) { return s.ground != Ground::object; };
   if (std::none_of(surfaces_.begin(), surfaces_.end(), atRest)) return {};
   Vec3Plane result(planes.width, planes.height);
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x) {
-        const uint16_t number = index(x, y);
-        if (number == 0 || !atRest(surfaces_[number - 1u])) continue;
-        result.set(x, y, placeAt(surfaces_[number - 1u], planes, x, y));
-      }
+  parallelRows(planes.height, [&](int top, int bottom) {
+    for (int y = top; y < bottom; ++y)
+      forRuns(index, y, [&](uint16_t number, int first, int end) {
+        const Surface& surface = surfaces_[number - 1u];
+        if (atRest(surface)) layRun(surface, planes, y, first, end, result);
+      });
   });
   return result;
+}
+
+void StrokeGrounds::layRun(const Surface& surface, const FramePlanes& planes, int y, int first,
+                           int end, Vec3Plane& result) const {
+  const bool alike = surface.ground == Ground::rest && !(surface.shift > 0.0f);
+  if (alike) {
+    const Vec3View rest = planes.rest.view();
+    float* const to[3] = {result.x.row(y) + first, result.y.row(y) + first,
+                          result.z.row(y) + first};
+    carryDirections(surface.placeFromRest, rest.x.row(y) + first, rest.y.row(y) + first,
+                    rest.z.row(y) + first, end - first, to);
+  }
+  for (int x = first; x < end; ++x)
+    if (!alike || !hasRest(planes, x, y)) result.set(x, y, placeAt(surface, planes, x, y));
 }
 
 void StrokeGrounds::noteMissing(std::vector<std::string>& warnings) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <unordered_map>
 
@@ -162,6 +163,18 @@ VisibleBounds boundsWithoutSidecar(const SceneParams& scene, const VisibleBounds
   return {centre - half, centre + half};
 }
 
+/// The axes of an object that no sidecar describes are the world's, had that its Z up: strokes
+/// turn about the object's Z.
+Transform worldFromUpright(WorldUp up) {
+  if (up == WorldUp::z) return {};
+  return Transform{{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
+}
+
+VisibleBounds uprightBounds(WorldUp up, const VisibleBounds& world) {
+  if (up == WorldUp::z) return world;
+  return {{world.low.x, -world.high.z, world.low.y}, {world.high.x, -world.low.z, world.high.y}};
+}
+
 /// Whether strokes of an object that no sidecar describes change with what a frame shows of it.
 bool movesWithView(const StyleLook& style, const SceneParams& scene) {
   const bool placed = !style.style.reference.empty() || !scene.centre.empty();
@@ -177,7 +190,7 @@ void takeBounds(const SidecarObject& object, bool atRest, BrushSubject& subject)
   subject.boundsMax = V3f(rest ? (*object.restBounds)[1] : object.boundsMax);
 }
 
-BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const FramePlan& plan,
+BrushSubject subjectOf(const StyleLook& styled, const Look& look, const FramePlan& plan,
                        const FrameLight& light, const Surface& surface, const VisibleBounds& seen,
                        bool atRest, std::set<std::string>& unbounded) {
   const StyleParams& style = styled.style;
@@ -190,11 +203,13 @@ BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const 
     subject.hasBounds = true;
     subject.flat = object->flat;
   } else {
-    const VisibleBounds bounds = boundsWithoutSidecar(scene, seen);
+    const VisibleBounds bounds =
+        uprightBounds(look.frame.up, boundsWithoutSidecar(look.scene, seen));
+    subject.worldFromObject = worldFromUpright(look.frame.up);
     subject.boundsMin = bounds.low;
     subject.boundsMax = bounds.high;
     subject.hasBounds = true;
-    if (movesWithView(styled, scene)) {
+    if (movesWithView(styled, look.scene)) {
       const std::string name = plan.objectName(surface.object);
       unbounded.insert(name.empty() ? fmt::format("{:08x}", surface.object) : name);
     }
@@ -205,7 +220,7 @@ BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const 
   const V3f centre = subject.flat && light.subjectRadius > 0
                          ? light.subjectCentre
                          : V3f(subject.worldFromObject.point(middle));
-  subject.worldPerPixel = pixelWidthAt(scene, plan, centre, light.subjectCentre);
+  subject.worldPerPixel = pixelWidthAt(look.scene, plan, centre, light.subjectCentre);
   if (!style.reference.empty())
     subject.referencePoints = {V3f(style.reference[0], style.reference[1], style.reference[2])};
   return subject;
@@ -219,6 +234,32 @@ void noteUnbounded(const std::set<std::string>& objects, std::vector<std::string
       "frame shows of them and will change with the view; give scene.centre and scene.radius, or "
       "style.reference and brush.mapping_distance",
       listNames({objects.begin(), objects.end()})));
+}
+
+/// Surfaces without any diffuse colour (glass, metal), of which a strip that multiplies makes
+/// black.
+void noteBlack(const FramePlan& plan, const FramePlanes& planes, const SurfaceIndex& index,
+               const std::vector<bool>& multiplies, std::vector<std::string>& warnings) {
+  if (planes.albedo.empty() || std::none_of(multiplies.begin(), multiplies.end(), std::identity()))
+    return;
+  std::vector<bool> black = multiplies;
+  for (int y = 0; y < planes.height; ++y)
+    for (int x = 0; x < planes.width; ++x) {
+      const uint16_t number = index.plane(x, y);
+      if (number != 0 && black[number - 1u] && planes.albedo.view()(x, y) != V3f(0.0f))
+        black[number - 1u] = false;
+    }
+  std::set<std::string> names;
+  for (size_t i = 0; i < black.size(); ++i)
+    if (const std::string name = plan.objectName(index.surfaces[i].object);
+        black[i] && !name.empty())
+      names.insert(name);
+  if (names.empty()) return;
+  warnings.push_back(
+      fmt::format("surfaces have no diffuse colour, as glass and metal have none ({}), so a strip "
+                  "that multiplies "
+                  "the colour is black there; give them a style with colour = \"replace\"",
+                  listNames({names.begin(), names.end()})));
 }
 
 }  // namespace
@@ -243,12 +284,12 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     BrushParams brush = style.passes.brush;
     const bool atRest = grounds.choose(number, object, brush);
     BrushSubject subject =
-        subjectOf(style, look.scene, plan, light, index.surfaces[number - 1],
+        subjectOf(style, look, plan, light, index.surfaces[number - 1],
                   seen.empty() ? VisibleBounds{} : seen[number - 1], atRest, unbounded);
     subject.strip = strips.indexOf(style.style.strip);
     result.anchors.push_back(makeBrushAnchor(subject, light.light, brush));
     result.anchors.back().atRest = atRest;
-    if (atRest) grounds.lay(number, subject, result.anchors.back());
+    if (atRest) grounds.lay(number, object, subject, result.anchors.back());
     result.styles.push_back(found ? static_cast<int>(found - look.styles.data()) : -1);
     result.brushes.push_back(style.passes.brush);
     result.tones.push_back(style.passes.tone);
@@ -259,6 +300,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
   }
   result.rest = grounds.places(planes, index.plane);
   noteUnbounded(unbounded, warnings);
+  noteBlack(plan, planes, index, result.multiplies, warnings);
   grounds.noteMissing(warnings);
   result.anchorIndex = std::move(index.plane);
   return result;

@@ -33,13 +33,13 @@ BrushResult cloneColours(const BrushResult& strokes) {
 FinishedPicture finish(const Look& look, const FramePlan& plan, const StagedFrame& frame) {
   BrushResult brush = cloneColours(*frame.strokes);
   FinishedPicture picture;
-  picture.outline = finishStrokes(plan, *frame.planes, frame.styles->surfaces, false, brush);
-  putBehindAndOver(look, *frame.planes, brush);
+  picture.outline = finishPicture(look, plan, *frame.planes, frame.styles->surfaces,
+                                  frame.surfaces->joins, false, brush);
   picture.frame.colour.x = std::move(brush.r);
   picture.frame.colour.y = std::move(brush.g);
   picture.frame.colour.z = std::move(brush.b);
   picture.frame.alpha = std::move(brush.a);
-  scaleDown(look, plan, *frame.surfaces, picture.frame);
+  scaleDown(look, plan, frame.surfaces->labels, picture.frame);
   return picture;
 }
 
@@ -55,7 +55,8 @@ LightStagesMade FrameStages::composeLight(const Look& look, const FramePlan& pla
   StageKey shadow = keyOf({frame.planes.version, frame.surfaces.version, index});
   addShadow(shadow, plan, light);
   made.shadow = stages.shadow.at(run, "shadow of " + light.name, std::move(shadow), [&] {
-    const ShadowWork work{light, plan, frame.planes->lights[index], *frame.planes, *frame.surfaces};
+    const ShadowWork work{light, plan, frame.planes->lights[index], *frame.planes,
+                          frame.surfaces->labels};
     return entryOf(light.method).function(work);
   });
 
@@ -65,7 +66,8 @@ LightStagesMade FrameStages::composeLight(const Look& look, const FramePlan& pla
     StageKey smooth = keyOf({made.shadow.version, frame.surfaces.version});
     smooth.add(smoothTable, &light.passes.smooth);
     made.visibility = stages.smoothed.at(run, "smoothing of " + light.name, std::move(smooth), [&] {
-      return smoothWithinSurfaces(made.shadow->visibility, *frame.surfaces, light.passes.smooth);
+      return smoothWithinSurfaces(made.shadow->visibility, frame.surfaces->labels,
+                                  light.passes.smooth);
     });
   } else {
     stages.smoothed = {};
@@ -77,7 +79,7 @@ LightStagesMade FrameStages::composeLight(const Look& look, const FramePlan& pla
   tone.add(light.strength).add(look.passes.tone.light);
   tone.add(shadeTable, &light.passes.shade).add(mergeTable, &light.passes.merge);
   made.tone = stages.tone.at(run, "tone of " + light.name, std::move(tone), [&] {
-    return lightTone(look, light, *made.visibility, *frame.planes, *frame.surfaces, nullptr);
+    return lightTone(look, light, *made.visibility, *frame.planes, frame.surfaces->labels, nullptr);
   });
   return made;
 }
@@ -130,7 +132,7 @@ void FrameStages::paint(const Look& look, const Made<StripSet>& strips, const Fr
 
   StageKey picture = keyOf(
       {frame.strokes.version, frame.styles.version, frame.planes.version, frame.surfaces.version});
-  picture.add(look.output.background).add(look.output.scale);
+  picture.add(look.output.background).add(look.output.edges).add(look.output.scale);
   frame.picture =
       picture_.at(run, "picture", std::move(picture), [&] { return finish(look, plan, frame); });
 }
@@ -153,7 +155,10 @@ StagedFrame FrameStages::compose(const Look& look, const Made<StripSet>& strips,
   StageKey surfaces = keyOf({planes.version});
   surfaces.add(surfacesTable, &look.passes.surfaces);
   frame.surfaces = surfaces_.at(run, "surfaces", std::move(surfaces), [&] {
-    return labelSurfaces(planes->objectId, planes->normal, planes->position, look.passes.surfaces);
+    FrameSurfaces made;
+    made.labels = labelSurfaces(planes->objectId, planes->normal, planes->position,
+                                look.passes.surfaces, &made.joins);
+    return made;
   });
   for (size_t i = 0; i < plan.lights.size(); ++i)
     frame.lights.push_back(composeLight(look, plan, i, frame, run));

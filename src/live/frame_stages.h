@@ -14,6 +14,12 @@
 
 namespace kagefude {
 
+/// Labels of a frame's surfaces, and which pixels are joined in them.
+struct FrameSurfaces {
+  Labels labels;
+  Bytes joins;
+};
+
 /// Surfaces with their styles, and what is doubted about them.
 struct DoubtedStyles {
   StyledSurfaces surfaces;
@@ -36,7 +42,7 @@ struct LightStagesMade {
 /// A frame with all its stages. Holds what it shows, whatever is made afterwards.
 struct StagedFrame {
   Made<FramePlanes> planes;
-  Made<Labels> surfaces;
+  Made<FrameSurfaces> surfaces;
   std::vector<LightStagesMade> lights;
   Made<DoubtedStyles> styles;
   Made<Floats> tone;  ///< brush.tone
@@ -70,7 +76,7 @@ class FrameStages {
              StagedFrame& frame, StageRun& run);
   void forgetLights(const FramePlan& plan);
 
-  Stage<Labels> surfaces_;
+  Stage<FrameSurfaces> surfaces_;
   std::map<std::string, LightStages> lights_;
   Stage<Floats> sum_, tone_;
   Stage<DoubtedStyles> styles_;

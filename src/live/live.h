@@ -30,7 +30,7 @@
 //   styles      styleSurfaces                [scene], lights, [brush], [outline], [tone], [[style]]
 //   tone        adjustTone                   the [tone] of each anchor
 //   strokes     paintStyles                  as styles, but for outlines, tone and albedo
-//   picture     finishStrokes ... scaleDown  output.background, output.scale
+//   picture     finishPicture, scaleDown     output.background, output.edges, output.scale
 //
 // A key may name more than its stage needs (a light's shadow counts the parameters of all methods):
 // that costs a stage for a knob that does nothing. It must never name less: tests/live turns every

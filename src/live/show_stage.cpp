@@ -72,7 +72,7 @@ std::vector<NamedStage> stagesOf(const LivePicture& picture, const Viewing& view
                       });
                     }});
   stages.push_back({"objects", [&] { return labels(planes.objectId); }});
-  stages.push_back({"surfaces", [&] { return labels(*frame.surfaces); }});
+  stages.push_back({"surfaces", [&] { return labels(frame.surfaces->labels); }});
   for (const LightStagesMade& light : frame.lights) {
     number("shadow." + light.name, light.shadow->visibility);
     number("visibility." + light.name, *light.visibility);

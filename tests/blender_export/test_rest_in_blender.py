@@ -3,7 +3,7 @@
 
 import unittest
 
-from blender_case import BlenderCase
+from blender_case import BlenderCase, blender_says
 
 EVERYTHING = """
 scene = start(40, 40)
@@ -30,6 +30,49 @@ light("Key", 'POINT', (-2, -2, 4), energy=300, shadow_soft_size=0.3)
 tools.camera((0, -7, 5), (0, 0, 0), 50)
 """
 
+# Cards with holes stand before the ground and a box that deforms, one behind the other.
+SEEN_THROUGH = """
+scene = start(48, 48)
+ground()
+rising = box("Rising", (-0.5, -0.5, 0), (0.5, 0.5, 0.6))
+rising.shape_key_add(name="Basis")
+up = rising.shape_key_add(name="Up")
+for point in up.data:
+    point.co.z += 0.5
+up.value = 1.0
+
+def card(name, y, alpha):
+    surface = tools.material(name, (0.2, 0.5, 0.1))
+    made = tools.plane(name, [(-0.9, 0, -0.9), (0.9, 0, -0.9), (0.9, 0, 0.9), (-0.9, 0, 0.9)], surface)
+    made.location = (0, y, 1)
+    shader = surface.node_tree.nodes["Principled BSDF"]
+    if isinstance(alpha, float):
+        shader.inputs["Alpha"].default_value = alpha
+        return surface.node_tree
+    tree = surface.node_tree
+    split, left = tree.nodes.new('ShaderNodeSeparateXYZ'), tree.nodes.new('ShaderNodeMath')
+    tree.links.new(tree.nodes.new('ShaderNodeTexCoord').outputs["Object"], split.inputs[0])
+    tree.links.new(split.outputs["X"], left.inputs[0])
+    left.operation, left.inputs[1].default_value = 'LESS_THAN', -0.2
+    tree.links.new(left.outputs[0], shader.inputs["Alpha"])
+    return tree
+
+card("Leaf", -1.5, "cut")
+mixed = card("Mixed", -2.5, 1.0)
+hole, mix = mixed.nodes.new('ShaderNodeBsdfTransparent'), mixed.nodes.new('ShaderNodeMixShader')
+mix.inputs[0].default_value = 1.0
+output = mixed.nodes["Material Output"]
+mixed.links.new(output.inputs["Surface"].links[0].from_socket, mix.inputs[1])
+mixed.links.new(hole.outputs[0], mix.inputs[2])
+mixed.links.new(mix.outputs[0], output.inputs["Surface"])
+light("Key", 'POINT', (-2, -4, 4), energy=300, shadow_soft_size=0.3)
+tools.camera((0, -7, 2), (0, 0, 0.8), 50)
+"""
+
+GHOST = """
+card("Ghost", -2.0, 0.3)
+"""
+
 
 class Rest(BlenderCase):
     def test_every_object_shows_where_it_rests(self):
@@ -47,6 +90,27 @@ class Rest(BlenderCase):
         self.assertEqual(objects["Bare"]["materials"], [])
         self.check_instances(objects["Leaf"], pixels)
         self.assertFalse(any("instanced" in objects[name] for name in moves))
+
+    def test_what_is_seen_through_holes_rests_as_it_does_elsewhere(self):
+        self.export(self.build(SEEN_THROUGH), "--frames", "1", "--masks", "disc:5")
+        pixels = self.pixels(1)
+        objects = {item["name"]: item["index"] for item in self.document(1)["objects"]}
+        for name, move in (("Ground", (0, 0, 0)), ("Rising", (0, 0, 0.5)), ("Leaf", (0, -1.5, 1))):
+            self.check_places(objects[name], move, pixels)
+            self.assertEqual(len({one for *_, one in self.places(objects[name], pixels)}), 1)
+
+    def test_what_is_seen_through_a_ghost_rests_as_it_does_elsewhere_or_says_nothing(self):
+        self.export(self.build(SEEN_THROUGH + GHOST), "--frames", "1", "--masks", "disc:5")
+        pixels = self.pixels(1)
+        objects = {item["name"]: item["index"] for item in self.document(1)["objects"]}
+        picks = blender_says("bpy.app.version >= (5, 0, 0)")
+        for name, move in (("Ground", (0, 0, 0)), ("Rising", (0, 0, 0.5)), ("Leaf", (0, -1.5, 1))):
+            seen = self.places(objects[name], pixels)
+            told = [place for place in seen if not picks or any(place[1])]
+            self.assertGreater(len(told), 0.5 * len(seen))
+            for position, rest, _ in told:
+                for axis in range(3):
+                    self.assertAlmostEqual(position[axis], rest[axis] + move[axis], 4)
 
     def places(self, index, pixels):
         """(position, rest, random) of every pixel of an object."""

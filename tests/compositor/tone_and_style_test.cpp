@@ -1,6 +1,8 @@
 // From shade and shadow to the tone that strokes follow, and which style paints what.
 #include <cmath>
 
+#include <algorithm>
+
 #include "compositor/map_frame.h"
 
 namespace kagefude {
@@ -107,6 +109,23 @@ TEST_F(StyleChoice, MultiplyTakesTheAlbedoAndReplaceDoesNot) {
   const V3f tinted = colourAt(frame.comp(look + "\"multiply\"\n"), 2, 4);
   EXPECT_GT(alone.z, 0.0f);
   EXPECT_EQ(tinted, V3f(alone.x * 0.5f, alone.y * 0.25f, 0.0f));
+}
+
+TEST_F(ToneAndStyle, ASurfaceWithoutDiffuseColourIsNamedWhereTheStripMultiplies) {
+  const auto said = [&](const std::string& colour) {
+    const FrameResult result = frame.comp(
+        "[[style]]\nobject = \"*\"\nstrip = \"builtin:soft\"\ncolour = \"" + colour + "\"\n");
+    return std::count_if(result.warnings.begin(), result.warnings.end(), [](const auto& warning) {
+      return warning.find("no diffuse colour") != std::string::npos &&
+             warning.find("(Thing)") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(said("multiply"), 0) << "no pass of it";
+  for (const char* name : {"DiffCol.R", "DiffCol.G", "DiffCol.B"}) frame.plane(name, 0.0f);
+  EXPECT_EQ(said("multiply"), 1);
+  EXPECT_EQ(said("replace"), 0);
+  frame.plane("DiffCol.G")(1, 2) = 0.25f;
+  EXPECT_EQ(said("multiply"), 0) << "a pixel has some";
 }
 
 TEST_F(StyleChoice, StripsOfPictureFilesAreReadBesideTheLook) {

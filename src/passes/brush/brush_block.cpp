@@ -182,10 +182,13 @@ void fetchAhead(const View<const T>& plane, int first, int end, int y) {
   for (int x = first; x < end; x += line) __builtin_prefetch(row + x, 0, 2);
 }
 
-void fetchNextBlock(const BrushInput& in, int first, int end, int y) {
+void fetchNextBlock(const BrushInput& in, bool atRest, int first, int end, int y) {
   for (const View<const float>& plane : {in.position.x, in.position.y, in.position.z, in.tone})
     fetchAhead(plane, first, end, y + 2);
   fetchAhead(in.index, first, end, y + 2);
+  if (atRest)
+    for (const View<const float>& plane : {in.rest.x, in.rest.y, in.rest.z})
+      fetchAhead(plane, first, end, y + 2);
   if (in.normal.empty()) return;
   for (const View<const float>& plane : {in.normal.x, in.normal.y, in.normal.z})
     fetchAhead(plane, first, end, y + 1);
@@ -197,7 +200,8 @@ void loadBlock(const BrushInput& in, const BrushAnchor& anchor, int first, int e
                BrushBlock& block) {
   const int count = end - first;
   const uint16_t own = in.index(first, y);
-  fetchNextBlock(in, first, end, y);
+  const bool atRest = liesAtRest(in, anchor);
+  fetchNextBlock(in, atRest, first, end, y);
   loadLine(in, first, end, y - 1, own, block.above);
   loadLine(in, first, end, y, own, block.here);
   loadLine(in, first, end, y + 1, own, block.below);
@@ -210,7 +214,7 @@ void loadBlock(const BrushInput& in, const BrushAnchor& anchor, int first, int e
   }
   changes(block.here, block.here, 2, block.here, 0, count, block.across);
   changes(block.here, block.below, 1, block.above, 1, count, block.down);
-  if (liesAtRest(in, anchor)) return loadRest(in, anchor.object, first, end, y, block);
+  if (atRest) return loadRest(in, anchor.object, first, end, y, block);
   const V3f axes[3] = {anchor.object.x, anchor.object.y, anchor.object.z};
   for (int k = 0; k < 3; ++k) placesAlong(axes[k], anchor.object.origin, count, k, block);
 }
