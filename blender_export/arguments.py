@@ -121,8 +121,8 @@ def build_parser():
     parser.add_argument("--truth", type=_whole_number("truth", 1, MOST_SAMPLES), default=0,
                         metavar="SAMPLES", dest="truth_samples",
                         help="also trace each light at its real size with so many samples")
-    parser.add_argument("--scale", type=_whole_number("scale", 1, 4), default=1, metavar="N",
-                        help="render N times the file's resolution, 1 to 4 (default: 1)")
+    parser.add_argument("--scale", type=_whole_number("scale", 1, 8), default=1, metavar="N",
+                        help="render N times the file's resolution, 1 to 8 (default: 1)")
     parser.add_argument("--depth-size", type=_whole_number("depth-size", 16, 16384), default=1024,
                         metavar="PIXELS", help="side of the light-depth maps (default: 1024)")
     parser.add_argument("--casters", action="store_true",

@@ -58,7 +58,7 @@ class KagefudeSettings(bpy.types.PropertyGroup):
         description="Also write the shapes that cast shadows, to move or add lights in the comp")
     truth_samples: IntProperty(name="Samples", default=512, min=1, max=65536)
     scale: IntProperty(
-        name="Scale", default=1, min=1, max=4,
+        name="Scale", default=1, min=1, max=8,
         description="Render so many times the resolution, for smoother edges after comping")
     depth_size: IntProperty(name="Depth Map Size", default=1024, min=16, max=16384,
                             subtype='PIXEL', description="Side of the light-depth maps")

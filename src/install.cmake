@@ -57,9 +57,10 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME kagefude)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core")
+# The last is loaded by name (src/live/microhttpd.h).
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core, libmicrohttpd12 | libmicrohttpd12t64")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libkagefude-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "kagefude (= ${PROJECT_VERSION}), libopenexr-dev, libopencolorio-dev, libopenimageio-dev, libimath-dev, libtbb-dev, libcli11-dev, libtomlplusplus-dev, nlohmann-json3-dev, libfmt-dev, libdeflate-dev, libisal-dev, libmicrohttpd-dev, libtinyobjloader-dev, libpng-dev, libfreetype-dev, pkg-config")
+  "kagefude (= ${PROJECT_VERSION}), libopenexr-dev, libopencolorio-dev, libopenimageio-dev, libimath-dev, libtbb-dev, libcli11-dev, libtomlplusplus-dev, nlohmann-json3-dev, libfmt-dev, libdeflate-dev, libisal-dev, libtinyobjloader-dev, libpng-dev, libfreetype-dev, pkg-config")
 include(CPack)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,9 @@ struct CastingScene {
 
 struct FramePlan;
 
-/// The rays of the camera that sees a planned frame. Throws InputError without a sidecar.
-CameraRays raysOf(const FramePlan& plan);
+/// The rays of the camera that sees a planned frame. Where that is not known, or is no camera:
+/// throws InputError when they are `needed`, else nothing.
+std::optional<CameraRays> raysOf(const FramePlan& plan, bool needed);
 
 /// Reads the casters of a planned frame, which has a sidecar, and builds what the methods need.
 /// Throws InputError.

@@ -39,8 +39,9 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   const Look look = inRenderedPixels(asked);
   FrameResult result;
   result.warnings = inputWarnings(plan, planes);
+  Bytes joins;
   Labels surfaces =
-      labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces);
+      labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces, &joins);
   lap(clock, "surfaces");
   if (sink) showInputs(planes, surfaces, *sink);
   Floats tone = frameTone(look, plan, planes, surfaces, result, sink, clock);
@@ -57,10 +58,10 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
     sink->number("brush.angle", brush.angle);
     sink->number("brush.repeat, within each ring", fractions(brush.repeat));
   }
-  Floats outline = finishStrokes(plan, planes, styled, asksFor(look, "outline"), brush);
+  Floats outline =
+      finishPicture(look, plan, planes, styled, joins, asksFor(look, "outline"), brush);
   lap(clock, "edges and outlines");
   if (sink && !outline.empty()) sink->number("outline", outline);
-  putBehindAndOver(look, planes, brush);
   result.colour.x = std::move(brush.r);
   result.colour.y = std::move(brush.g);
   result.colour.z = std::move(brush.b);

@@ -22,20 +22,6 @@ void multiplyAlbedo(const FramePlanes& planes, const StyledSurfaces& styled, Bru
   });
 }
 
-/// Associated "over": the strokes, and behind them the beauty.
-void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x) {
-        const float behind = 1.0f - brush.a(x, y);
-        brush.r(x, y) += behind * planes.beauty.x(x, y);
-        brush.g(x, y) += behind * planes.beauty.y(x, y);
-        brush.b(x, y) += behind * planes.beauty.z(x, y);
-        brush.a(x, y) += behind * (planes.alpha.empty() ? 1.0f : planes.alpha(x, y));
-      }
-  });
-}
-
 /// Associated "over": drawn lines over what is painted and what is not.
 void putLinesOver(const FramePlanes& planes, BrushResult& brush) {
   parallelRows(planes.height, [&](int first, int end) {
@@ -64,17 +50,17 @@ void noteBadPixels(const FramePlanes& planes, std::vector<std::string>& warnings
 
 }  // namespace
 
-Floats finishStrokes(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
-                     bool always, BrushResult& brush) {
+Floats finishPicture(const Look& look, const FramePlan& plan, const FramePlanes& planes,
+                     const StyledSurfaces& styled, View<const uint8_t> joins, bool outlines,
+                     BrushResult& brush) {
   multiplyAlbedo(planes, styled, brush);
+  if (look.output.edges == Edges::coverage) blendInside(planes, styled, joins, brush);
   blendEdges(plan, planes, brush);
-  return drawStyleOutlines(plan, planes, styled, always, brush);
-}
-
-void putBehindAndOver(const Look& look, const FramePlanes& planes, BrushResult& brush) {
   if (look.output.background == Background::beauty && !planes.beauty.empty())
     putBeautyBehind(planes, brush);
+  Floats outline = drawStyleOutlines(plan, planes, styled, outlines, brush);
   if (!planes.linesAlpha.empty()) putLinesOver(planes, brush);
+  return outline;
 }
 
 std::vector<std::string> inputWarnings(const FramePlan& plan, const FramePlanes& planes) {

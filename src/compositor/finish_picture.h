@@ -11,14 +11,13 @@ namespace kagefude {
 
 // What a frame's strokes go through until they are a picture (method sections 7 and 8).
 
-/// Multiplies strokes by the surface's colour where their style says so, lets things meet by their
-/// coverage, and draws the outlines, whose coverage it gives; empty where no style draws any and
-/// `always` is false.
-Floats finishStrokes(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
-                     bool always, BrushResult& brush);
-
-/// The beauty behind the strokes, as output.background asks, and drawn lines over all.
-void putBehindAndOver(const Look& look, const FramePlanes& planes, BrushResult& brush);
+/// Multiplies strokes by the surface's colour where their style says so, blends them where surfaces
+/// meet inside things and where things meet, puts the beauty behind as output.background asks,
+/// draws the outlines, and the frame's own drawn lines over all. `joins` are of its surfaces. Gives
+/// the outlines' coverage; empty where no style draws any and `outlines` is false.
+Floats finishPicture(const Look& look, const FramePlan& plan, const FramePlanes& planes,
+                     const StyledSurfaces& styled, View<const uint8_t> joins, bool outlines,
+                     BrushResult& brush);
 
 /// What is doubted about a frame before anything is made of it: of its files, its pixels and its
 /// casters.

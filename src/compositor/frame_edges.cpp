@@ -7,7 +7,8 @@
 
 #include "base/same_params.h"
 #include "image/parallel.h"
-#include "passes/edges/coverage_blend.h"
+#include "passes/edges/behind_paint.h"
+#include "passes/edges/inner_edges.h"
 #include "passes/edges/outline.h"
 
 namespace kagefude {
@@ -29,6 +30,13 @@ Labels ownCryptomatteIds(const FramePlan& plan, View<const uint32_t> objects) {
     ids.row(0)[i] = lastId;
   }
   return ids;
+}
+
+std::vector<CoverageRank> coverageRanks(const FramePlanes& planes) {
+  std::vector<CoverageRank> ranks;
+  for (size_t i = 0; i < planes.coverageIds.size(); ++i)
+    ranks.push_back({planes.coverageIds[i], planes.coverageShares[i]});
+  return ranks;
 }
 
 /// Distances from the camera; only compared, so any depth along the view serves.
@@ -71,14 +79,26 @@ void paintLines(const OutlineResult& lines, const StyledSurfaces& styled,
 void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush) {
   if (planes.coverageIds.empty()) return;
   const Labels own = ownCryptomatteIds(plan, planes.objectId);
-  std::vector<CoverageRank> ranks;
-  for (size_t i = 0; i < planes.coverageIds.size(); ++i)
-    ranks.push_back({planes.coverageIds[i], planes.coverageShares[i]});
-  ColourPlanes blended = blendByCoverage({brush.r, brush.g, brush.b, brush.a}, own, ranks);
+  ColourPlanes blended =
+      blendByCoverage({brush.r, brush.g, brush.b, brush.a}, own, coverageRanks(planes));
   brush.r = std::move(blended.r);
   brush.g = std::move(blended.g);
   brush.b = std::move(blended.b);
   brush.a = std::move(blended.a);
+}
+
+void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<const uint8_t> joins,
+                 BrushResult& brush) {
+  EdgeSurfaces surfaces{planes.objectId, styled.anchorIndex, joins, planes.normal, planes.position};
+  surfaces.rays = planes.rays ? &*planes.rays : nullptr;
+  surfaces.betweenObjects = planes.coverageIds.empty();
+  blendInnerEdges(surfaces, {brush.r.view(), brush.g.view(), brush.b.view(), brush.a.view()});
+}
+
+void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {
+  const ColourViews beauty{planes.beauty.x, planes.beauty.y, planes.beauty.z, planes.alpha};
+  layOverPicture({brush.r.view(), brush.g.view(), brush.b.view(), brush.a.view()}, beauty,
+                 coverageRanks(planes));
 }
 
 Floats drawStyleOutlines(const FramePlan& plan, const FramePlanes& planes,

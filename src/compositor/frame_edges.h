@@ -10,6 +10,15 @@ namespace kagefude {
 /// it; else leaves the strokes as they are.
 void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
 
+/// Blends the strokes where edges run inside an object, and between objects where the frame has no
+/// coverage. `joins` are those of its surfaces.
+void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<const uint8_t> joins,
+                 BrushResult& brush);
+
+/// Puts the beauty behind the strokes, each thing once: where coverage is known, not the things
+/// that are painted, but what lies beside them.
+void putBeautyBehind(const FramePlanes& planes, BrushResult& brush);
+
 /// Draws the styles' contour lines over the strokes, each in the colour of the style of its nearest
 /// surface. Returns the lines' coverage (layer `outline`); empty when no style draws any and
 /// `always` is false.

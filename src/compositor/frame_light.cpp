@@ -8,6 +8,7 @@
 #include "base/frame_pattern.h"
 #include "base/glob.h"
 #include "base/nearest_name.h"
+#include "frame/frame_camera.h"
 
 namespace kagefude {
 namespace {
@@ -167,12 +168,6 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, const Whole
       light.places.emplace_back(static_cast<float>(sample.u), static_cast<float>(sample.v));
     }
   return light;
-}
-
-Transform matrixFrom(const std::vector<float>& numbers) {
-  Transform result;
-  for (size_t i = 0; i < numbers.size(); ++i) result.m[i / 4][i % 4] = numbers[i];
-  return result;
 }
 
 /// Places of masks that the look names without saying where they stand on the light: two are a

@@ -96,6 +96,7 @@ size_t frameMemory(const Look& look, const FramePlan& plan,
     methods = std::max(methods, methodBytes(light));
   }
   size_t floats = 4 * (3 + 3);
+  if (plan.spaces.rebuilt) floats += 4 * (1 + 3);  // the depth, and what it would be otherwise
   if (plan.albedo) floats += 4 * 3;
   if (plan.rest) floats += 4 * (4 + 3);  // and the places that it gives
   if (plan.uv) floats += 4 * 2;

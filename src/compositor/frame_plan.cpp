@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "compositor/output_layers.h"
+#include "compositor/position_pass.h"
 #include "compositor/scale_down.h"
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
@@ -219,10 +220,11 @@ FramePlan planOpenFrame(const Look& asked, ImageFile image, std::optional<Sideca
   if (plan.sidecar && plan.image.pixelAspect == 1.0f)
     plan.image.pixelAspect = static_cast<float>(plan.sidecar->pixelAspect);
   const AovNames names = namesFor(look, plan.sidecar);
-  plan.position = requireAov(plan.image, names, AovKind::position);
+  plan.spaces = vectorSpaces(names, plan.image, plan.sidecar ? &plan.sidecar->camera : nullptr);
+  planPositions(names, plan);
   plan.normal = requireAov(plan.image, names, AovKind::normal);
-  plan.spaces = vectorSpaces(names, plan.image);
-  if (plan.sidecar) plan.spaces.cameraFromWorld = plan.sidecar->camera.cameraFromWorld;
+  if (const std::string doubt = doubtCamera(plan.spaces); !doubt.empty())
+    plan.warnings.push_back(doubt);
   plan.albedo = findAov(plan.image, names, AovKind::albedo);
   plan.beauty = findAov(plan.image, names, AovKind::beauty);
   for (const auto& pass : {std::optional(plan.position), plan.albedo, plan.beauty})

@@ -20,7 +20,7 @@ struct FramePlan {
   ImageFile image;
   std::optional<Sidecar> sidecar;
   std::vector<FrameLight> lights;
-  Aov position, normal;
+  Aov position, normal;  ///< position: the depth, where `spaces` says that it is rebuilt
   VectorSpaces spaces;
   std::optional<Aov> albedo, beauty;
   std::optional<Aov> rest, uv, instanceRandom;  ///< only where strokes ask for them
@@ -55,8 +55,8 @@ struct FramePlan {
 FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame,
                     const std::string& view = "");
 
-/// The same of a frame that is open, in whatever way, and whose view is taken. `sidecar` is what its
-/// JSON says, if it has one.
+/// The same of a frame that is open, in whatever way, and whose view is taken. `sidecar` is what
+/// its JSON says, if it has one.
 FramePlan planOpenFrame(const Look& look, ImageFile image, std::optional<Sidecar> sidecar,
                         int frame);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct FramePlanes {
   std::vector<Labels> coverageIds;              ///< Cryptomatte of objects by rank, for clean edges
   std::vector<Floats> coverageShares;           ///< how much of the pixel each covers
   std::vector<LightPlanes> lights;              ///< in the order of the plan's lights
-  CameraRays rays;                              ///< where a light needs them
+  std::optional<CameraRays> rays;               ///< where the camera is known
   std::shared_ptr<const CastingScene> casting;  ///< null when no light needs it
   std::vector<std::string> warnings;            ///< what is doubted about the pixels
   size_t badPixels = 0;                         ///< pixels whose NaN or Inf made them background

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "compositor/position_pass.h"
 #include "compositor/rest_pass.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
@@ -96,9 +97,8 @@ MotionFrame readMotionFrame(const Look& look, const std::filesystem::path& path,
   const Aov vector = requireAov(plan.image, look.frame, AovKind::vector);
   MotionFrame result;
   ChannelReader reader(plan.image);
-  reader.floats(plan.position.channels.at(0), result.position.x);
-  reader.floats(plan.position.channels.at(1), result.position.y);
-  reader.floats(plan.position.channels.at(2), result.position.z);
+  PositionPass positions;
+  requestPositions(reader, plan, positions);
   reader.floats(vector.channels.at(0), result.motionX);
   reader.floats(vector.channels.at(1), result.motionY);
   Floats restAlpha;
@@ -116,10 +116,13 @@ MotionFrame readMotionFrame(const Look& look, const std::filesystem::path& path,
     reader.floats(plan.objectId.channels.at(0), index);
   reader.read();
   if (plan.rest) markWithoutRest(restAlpha, result.rest);
+  result.position = takePositions(plan, positions);
+  VectorSpaces spaces = plan.spaces;
+  spaces.normal = VectorSpace::automatic;
+  spaces.range = NormalRange::automatic;
+  spaces.axes.clear();
   Vec3Plane noNormals;
-  convertToWorld({plan.spaces.position, VectorSpace::automatic, NormalRange::automatic, "",
-                  plan.spaces.cameraFromWorld},
-                 plan.image, result.position, noNormals);
+  convertToWorld(spaces, plan.image, result.position, noNormals);
   result.ids = index.empty() ? dominantIds(matte) : roundIndices(index);
   result.dataWindow = plan.image.dataWindow;
   result.displayWindow = plan.image.displayWindow;

@@ -8,11 +8,14 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "compositor/casting_scene.h"
+#include "compositor/doubt_bounds.h"
+#include "compositor/position_pass.h"
 #include "compositor/rest_pass.h"
 #include "compositor/unseen_things.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
+#include "frame/rebuild_positions.h"
 #include "frame/sanitise.h"
 #include "image/parallel.h"
 
@@ -98,26 +101,39 @@ void clearOutside(const FramePlan& plan, FramePlanes& planes) {
 
 /// A reading that the look can set stops the frame; what nothing explains is said.
 void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
-  const SpaceDoubt doubt =
+  SpaceDoubt doubt =
       doubtSpaces(plan.spaces, plan.image, planes.position, planes.normal, planes.objectId);
+  if (!doubt.known) {
+    SpaceDoubt nearer = doubtDepth(plan.spaces, planes.position, planes.normal, planes.objectId);
+    if (!nearer.sentence.empty()) doubt = std::move(nearer);
+  }
   if (doubt.known)
     throw InputError(fmt::format("{}: {}", plan.image.path.string(), doubt.sentence));
   if (!doubt.sentence.empty()) planes.warnings.push_back(doubt.sentence);
+  if (std::string outside = doubtBounds(plan, planes); !outside.empty())
+    planes.warnings.push_back(std::move(outside));
+}
+
+void clearIds(const std::set<uint32_t>& unpainted, View<uint32_t> ids) {
+  parallelRows(ids.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < ids.width; ++x)
+        if (unpainted.count(ids(x, y))) ids(x, y) = 0;
+  });
 }
 
 /// Where an object is not painted, the beauty stands: cut, or with what lies behind it.
 void clearUnpainted(const FramePlan& plan, FramePlanes& planes) {
   if (!plan.sidecar) return;
-  std::set<uint32_t> unpainted;
+  std::set<uint32_t> unpainted, inCryptomatte;
   for (const SidecarObject& object : plan.sidecar->objects)
-    if (!object.painted)
+    if (!object.painted) {
       unpainted.insert(plan.idSource == IdSource::index ? object.index : object.cryptoId);
+      inCryptomatte.insert(object.cryptoId);
+    }
   if (unpainted.empty()) return;
-  parallelRows(planes.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x)
-        if (unpainted.count(planes.objectId(x, y))) planes.objectId(x, y) = 0;
-  });
+  clearIds(unpainted, planes.objectId.view());
+  for (Labels& rank : planes.coverageIds) clearIds(inCryptomatte, rank.view());
 }
 
 void noteUnseen(const FramePlan& plan, FramePlanes& planes) {
@@ -136,7 +152,8 @@ void noteUnseen(const FramePlan& plan, FramePlanes& planes) {
 FramePlanes readFramePlanes(const FramePlan& plan) {
   FramePlanes planes;
   ChannelReader reader(plan.image);
-  requestVector(reader, plan.position, planes.position);
+  PositionPass positions;
+  requestPositions(reader, plan, positions);
   requestVector(reader, plan.normal, planes.normal);
   if (plan.albedo) requestVector(reader, *plan.albedo, planes.albedo);
   Floats restAlpha;
@@ -179,6 +196,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
       reader.floats(plan.lights[i].tracedChannel, traced[i]);
   reader.read();
 
+  planes.position = takePositions(plan, positions);
   planes.width = planes.position.x.width();
   planes.height = planes.position.x.height();
   for (size_t i = 0; i < plan.lights.size(); ++i) {
@@ -198,10 +216,9 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   const auto wantsScene = [](const FrameLight& light) {
     return entryOf(light.method).needs.camera;
   };
-  if (std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene)) {
-    planes.rays = raysOf(plan);
-    planes.casting = std::make_shared<const CastingScene>(readCastingScene(plan));
-  }
+  const bool casts = std::any_of(plan.lights.begin(), plan.lights.end(), wantsScene);
+  planes.rays = raysOf(plan, casts);
+  if (casts) planes.casting = std::make_shared<const CastingScene>(readCastingScene(plan));
   if (plan.rest) markWithoutRest(restAlpha, planes.rest);
   convertToWorld(plan.spaces, plan.image, planes.position, planes.normal);
   clearOutside(plan, planes);
@@ -210,6 +227,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
+  clearWithoutDepth(plan, planes);
   noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
   checkSpaces(plan, planes);

@@ -3,6 +3,7 @@
 #include <tbb/collaborative_call_once.h>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,11 @@ class StripSet {
   /// built-in name is unknown. `colour` must outlive the set.
   StripSet(const Look& look, const Colour& colour);
   StripSet(const Look& look, Colour&& colour) = delete;
+  /// The same, but takes the strips named in `kept` over from `other`, where it has them. Whoever
+  /// says so answers for it that they would be loaded alike. Afterwards `other` lacks them, unless
+  /// this throws.
+  StripSet(const Look& look, const Colour& colour, StripSet& other,
+           const std::set<std::string>& kept);
 
   /// The index of a style's strip in strips(); "builtin:neutral" for surfaces without a style. That
   /// one is painted when it is first asked for: many looks leave no surface to it.
@@ -26,6 +32,9 @@ class StripSet {
   const std::vector<Strip>& strips() const { return strips_; }
 
  private:
+  Strip* find(const std::string& name);
+  void load(const Look& look, StripSet* other, const std::set<std::string>& kept);
+
   const Colour& colour_;
   mutable std::vector<Strip> strips_;  ///< the first is the neutral one, empty until asked for
   mutable tbb::collaborative_once_flag neutral_;

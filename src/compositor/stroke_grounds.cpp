@@ -121,12 +121,16 @@ bool StrokeGrounds::choose(size_t number, uint32_t object, BrushParams& params) 
   return true;
 }
 
-void StrokeGrounds::lay(size_t number, const BrushSubject& subject, BrushAnchor& anchor) {
+void StrokeGrounds::lay(size_t number, uint32_t object, const BrushSubject& subject,
+                        BrushAnchor& anchor) {
   Surface& surface = surfaces_[number - 1];
   surface.placeFromWorld = alongAxes(anchor.object);
-  if (surface.ground == Ground::rest && !plan_.restInWorld)
+  const SidecarObject* described = plan_.findObject(object);
+  if (surface.ground == Ground::rest && !(described && plan_.restInWorld)) {
+    const Transform worldFromRest = described ? subject.worldFromObject : Transform();
     surface.placeFromRest =
-        withoutMove(withoutMove(surface.placeFromWorld) * withoutMove(subject.worldFromObject));
+        withoutMove(withoutMove(surface.placeFromWorld) * withoutMove(worldFromRest));
+  }
   if (!(surface.uvSize > 0.0f)) surface.uvSize = longestSide(subject);
   anchor.placesTurned = surface.ground == Ground::uv || plan_.restInWorld;
   if (!(surface.shift > 0.0f)) return;

@@ -27,10 +27,11 @@ class StrokeGrounds {
 
   /// Takes what turns a surface's passes into places: rest positions go through the object's matrix
   /// of this frame without its turn and move, so they have its size in the world; those in world
-  /// space are taken as they are; UVs are sized by brush.uv_size. Instances of one object are
-  /// shifted against each other by their random numbers, in whole steps. The anchor
-  /// learns of the steps, and of places that do not lie along its axes.
-  void lay(size_t number, const BrushSubject& subject, BrushAnchor& anchor);
+  /// space, and of an object that no JSON describes, are taken as they are (frame.up apart); UVs
+  /// are sized by brush.uv_size. Instances of one object are shifted against each other by their
+  /// random numbers, in whole steps. The anchor learns of the steps, and of places that do not lie
+  /// along its axes.
+  void lay(size_t number, uint32_t object, const BrushSubject& subject, BrushAnchor& anchor);
 
   /// The places of all surfaces; empty where none lies at rest.
   Vec3Plane places(const FramePlanes& planes, View<const uint16_t> index) const;

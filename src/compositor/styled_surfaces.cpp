@@ -163,6 +163,18 @@ VisibleBounds boundsWithoutSidecar(const SceneParams& scene, const VisibleBounds
   return {centre - half, centre + half};
 }
 
+/// The axes of an object that no sidecar describes are the world's, had that its Z up: strokes
+/// turn about the object's Z.
+Transform worldFromUpright(WorldUp up) {
+  if (up == WorldUp::z) return {};
+  return Transform{{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}, {0, 0, 0, 1}}};
+}
+
+VisibleBounds uprightBounds(WorldUp up, const VisibleBounds& world) {
+  if (up == WorldUp::z) return world;
+  return {{world.low.x, -world.high.z, world.low.y}, {world.high.x, -world.low.z, world.high.y}};
+}
+
 /// Whether strokes of an object that no sidecar describes change with what a frame shows of it.
 bool movesWithView(const StyleLook& style, const SceneParams& scene) {
   const bool placed = !style.style.reference.empty() || !scene.centre.empty();
@@ -178,7 +190,7 @@ void takeBounds(const SidecarObject& object, bool atRest, BrushSubject& subject)
   subject.boundsMax = V3f(rest ? (*object.restBounds)[1] : object.boundsMax);
 }
 
-BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const FramePlan& plan,
+BrushSubject subjectOf(const StyleLook& styled, const Look& look, const FramePlan& plan,
                        const FrameLight& light, const Surface& surface, const VisibleBounds& seen,
                        bool atRest, std::set<std::string>& unbounded) {
   const StyleParams& style = styled.style;
@@ -191,11 +203,13 @@ BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const 
     subject.hasBounds = true;
     subject.flat = object->flat;
   } else {
-    const VisibleBounds bounds = boundsWithoutSidecar(scene, seen);
+    const VisibleBounds bounds =
+        uprightBounds(look.frame.up, boundsWithoutSidecar(look.scene, seen));
+    subject.worldFromObject = worldFromUpright(look.frame.up);
     subject.boundsMin = bounds.low;
     subject.boundsMax = bounds.high;
     subject.hasBounds = true;
-    if (movesWithView(styled, scene)) {
+    if (movesWithView(styled, look.scene)) {
       const std::string name = plan.objectName(surface.object);
       unbounded.insert(name.empty() ? fmt::format("{:08x}", surface.object) : name);
     }
@@ -206,7 +220,7 @@ BrushSubject subjectOf(const StyleLook& styled, const SceneParams& scene, const 
   const V3f centre = subject.flat && light.subjectRadius > 0
                          ? light.subjectCentre
                          : V3f(subject.worldFromObject.point(middle));
-  subject.worldPerPixel = pixelWidthAt(scene, plan, centre, light.subjectCentre);
+  subject.worldPerPixel = pixelWidthAt(look.scene, plan, centre, light.subjectCentre);
   if (!style.reference.empty())
     subject.referencePoints = {V3f(style.reference[0], style.reference[1], style.reference[2])};
   return subject;
@@ -270,12 +284,12 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     BrushParams brush = style.passes.brush;
     const bool atRest = grounds.choose(number, object, brush);
     BrushSubject subject =
-        subjectOf(style, look.scene, plan, light, index.surfaces[number - 1],
+        subjectOf(style, look, plan, light, index.surfaces[number - 1],
                   seen.empty() ? VisibleBounds{} : seen[number - 1], atRest, unbounded);
     subject.strip = strips.indexOf(style.style.strip);
     result.anchors.push_back(makeBrushAnchor(subject, light.light, brush));
     result.anchors.back().atRest = atRest;
-    if (atRest) grounds.lay(number, subject, result.anchors.back());
+    if (atRest) grounds.lay(number, object, subject, result.anchors.back());
     result.styles.push_back(found ? static_cast<int>(found - look.styles.data()) : -1);
     result.brushes.push_back(style.passes.brush);
     result.tones.push_back(style.passes.tone);

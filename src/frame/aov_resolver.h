@@ -35,6 +35,12 @@ inline constexpr std::string_view vectorSpaceNames[] = {"auto", "world", "camera
 /// `automatic` is world space for names that say so (__WPref), else the object's.
 enum class RestSpace { automatic, object, world };
 inline constexpr std::string_view restSpaceNames[] = {"auto", "object", "world"};
+/// What a depth pass measures: along the camera's axis, or along each pixel's ray.
+enum class DepthKind { automatic, planar, ray };
+inline constexpr std::string_view depthKindNames[] = {"auto", "planar", "ray"};
+/// The world's axis that points up. Of objects that no JSON describes it stands for their own.
+enum class WorldUp { z, y };
+inline constexpr std::string_view worldUpNames[] = {"z", "y"};
 enum class NormalRange { automatic, symmetric, unit };
 inline constexpr std::string_view normalRangeNames[] = {"auto", "-1..1", "0..1"};
 
@@ -55,6 +61,9 @@ struct AovNames {
   VectorSpace normalSpace = VectorSpace::automatic;
   NormalRange normalRange = NormalRange::automatic;
   std::string normalAxes;
+  DepthKind depthKind = DepthKind::automatic;
+  WorldUp up = WorldUp::z;
+  std::vector<float> cameraFromWorld, clipFromCamera;  ///< 16 numbers row by row, or none
 
   const std::string& of(AovKind kind) const;
 };
@@ -100,6 +109,22 @@ inline constexpr Parameter aovNamesParameters[] = {
     plain<&AovNames::normalAxes>("normal_axes",
                                  "which components of the pass are x, y and z, such as x -z y; "
                                  "empty: x y z"),
+    choice<&AovNames::depthKind>(
+        "depth_kind", depthKindNames,
+        "what the depth is measured along, for frames without positions, which are rebuilt from "
+        "it: the camera's axis (planar) or each pixel's ray; auto takes planar and stops where ray "
+        "fits the normals"),
+    choice<&AovNames::up>("up", worldUpNames,
+                          "axis of the world that points up: strokes on objects that no JSON "
+                          "describes run by it (Maya, Houdini, Nuke: y)"),
+    numbers<&AovNames::cameraFromWorld>(
+        "camera_from_world", 16, -1e12, 1e12, "",
+        "matrix of the frame's camera, row by row, which looks along -z with y up; empty: as the "
+        "JSON says, else the header (worldToCamera, or V-Ray's cameraTransform)"),
+    numbers<&AovNames::clipFromCamera>(
+        "clip_from_camera", 16, -1e12, 1e12, "",
+        "projection of the frame's camera, row by row, to -1..1 over the display window; empty: as "
+        "the JSON says, else the header (worldToNDC, or V-Ray's cameraFov)"),
 };
 inline constexpr ParameterTable aovNamesTable{
     "frame", "names the passes of frames from other renderers; empty names are found", "kagefude",

@@ -18,6 +18,10 @@ constexpr size_t fewestPlaces = 64;
 // are worth a word even where nothing explains them.
 constexpr float passes = 0.004f, namedWithin = 0.1f, muchBetter = 0.25f, better = 0.4f;
 constexpr float hopeless = 0.3f;
+// Of rebuilt positions the camera may be wrong as well, and other axes of the normals explain only
+// some of that: 14 degrees are more than the bumps of half a picture, for what is taken and for
+// what is named.
+constexpr float hopelessRebuilt = 0.03f;
 // A ground that fills the picture may agree with another reading than all that stands on it: even
 // where the middle agrees, so small a share of places beyond `namedWithin` is looked into.
 constexpr double fewWrong = 0.02;
@@ -82,10 +86,10 @@ std::vector<Trial> tryAll(const std::vector<SmoothPlace>& places,
 // of the picture many readings fit in the middle, the plain one perhaps; the mean over all places
 // tells them apart.
 std::optional<NormalReading> explain(const std::vector<SmoothPlace>& places,
-                                     const std::optional<Transform>& camera) {
+                                     const std::optional<Transform>& camera, float within) {
   const float plain = meanDeviation(places, {}), plainMiddle = middleDeviation(places, {});
   std::vector<Trial> trials = tryAll(places, camera);
-  std::erase_if(trials, [](const Trial& trial) { return trial.middle > namedWithin; });
+  std::erase_if(trials, [&](const Trial& trial) { return trial.middle > within; });
   float best = 2, bestMiddle = 2;
   for (const Trial& trial : trials) {
     best = std::min(best, trial.mean);
@@ -115,18 +119,22 @@ double placeOf(const Transform& cameraFromWorld) {
   return V3d(cameraFromWorld.m[0][3], cameraFromWorld.m[1][3], cameraFromWorld.m[2][3]).length();
 }
 
+std::optional<Transform> cameraOf(const VectorSpaces& spaces) {
+  if (!spaces.camera || !spaces.camera->problem.empty()) return std::nullopt;
+  return spaces.camera->cameraFromWorld;
+}
+
 // Positions of the camera's space are seen by a camera that stands at 0 and looks along -z.
 SpaceDoubt doubtPositions(const VectorSpaces& spaces, const std::optional<Transform>& fitted,
                           const std::vector<SeenPoint>& points) {
-  if (!fitted || spaces.position != VectorSpace::automatic) return {};
+  if (!fitted || spaces.position != VectorSpace::automatic || spaces.rebuilt) return {};
   double distance = 0;
   for (const SeenPoint& point : points)
     distance += point.world.length() / static_cast<double>(points.size());
   if (!isIdentity(*fitted, 1e-3) || placeOf(*fitted) > 1e-3 * distance) return {};
-  const bool known = spaces.cameraFromWorld.has_value();
-  if (known && isIdentity(*spaces.cameraFromWorld, 1e-3) &&
-      placeOf(*spaces.cameraFromWorld) <= 1e-3 * distance)
-    return {};
+  const std::optional<Transform> said = cameraOf(spaces);
+  const bool known = said.has_value();
+  if (known && isIdentity(*said, 1e-3) && placeOf(*said) <= 1e-3 * distance) return {};
   return {known,
           "the positions are seen from 0 along -z, so they are in the camera's space; set "
           "frame.position_space = \"camera\" (or \"world\", if the camera does stand so)"};
@@ -147,17 +155,30 @@ SpaceDoubt doubtSpaces(const VectorSpaces& spaces, const ImageFile& file, Vec3Vi
   const bool hidden = plain <= passes;
   if (hidden && static_cast<double>(wrong.size()) < fewWrong * static_cast<double>(places.size()))
     return {};
-  const auto found = explain(places, spaces.cameraFromWorld ? spaces.cameraFromWorld : fitted);
+  const std::optional<Transform> said = cameraOf(spaces);
+  const auto found =
+      explain(places, said ? said : fitted, spaces.rebuilt ? hopelessRebuilt : namedWithin);
   const bool asked = spaces.normal != VectorSpace::automatic ||
                      spaces.range != NormalRange::automatic || !spaces.axes.empty();
   if (found && !asked)
-    return {true,
-            fmt::format("the normals {}: as they are they stand {:.0f} degrees off the "
-                        "positions' slopes{}; set {} (or frame.normal_space = \"world\" to "
-                        "take them as they are)",
-                        found->sentence(), degreesOf(hidden ? middleDeviation(wrong, {}) : plain),
-                        hidden ? " where these are not flat ground" : "", found->settings())};
-  if (plain <= hopeless) return {};
+    return {
+        true,
+        fmt::format("the normals {}: as they are they stand {:.0f} degrees off the "
+                    "positions' slopes{}; set {} (or frame.normal_space = \"world\" to "
+                    "take them as they are){}",
+                    found->sentence(), degreesOf(hidden ? middleDeviation(wrong, {}) : plain),
+                    hidden ? " where these are not flat ground" : "", found->settings(),
+                    spaces.rebuilt ? ", or say the depth or the camera that positions are rebuilt "
+                                     "from (frame.depth_kind, camera_from_world)"
+                                   : "")};
+  if (plain <= (spaces.rebuilt ? hopelessRebuilt : hopeless)) return {};
+  if (spaces.rebuilt)
+    return {false,
+            fmt::format("the normals stand {:.0f} degrees off the slopes of the rebuilt positions "
+                        "in half of the picture, so the depth or {} is not what it is taken for; "
+                        "say them with frame.depth_kind, camera_from_world and clip_from_camera, "
+                        "or render a Position pass",
+                        degreesOf(plain), spaces.camera ? spaces.camera->source : "the camera")};
   return {false,
           fmt::format("the normals stand {:.0f} degrees off the positions' slopes in half of "
                       "the picture; say with frame.normal_space, normal_range and "

@@ -10,6 +10,7 @@
 #include "frame/cryptomatte.h"
 #include "frame/frame_view.h"
 #include "frame/lossy_passes.h"
+#include "frame/rebuild_positions.h"
 #include "frame/sidecar.h"
 #include "picture/frame_picture.h"
 
@@ -59,6 +60,31 @@ bool isFound(const Inspection& inspection, AovKind kind) {
   });
 }
 
+// Positions may be rebuilt: what from, or why not.
+void addPositions(Inspection& inspection, const ImageFile& file, const AovNames& names,
+                  const std::optional<Sidecar>& sidecar) {
+  constexpr auto use = "which the shadow search and the brush mapping need";
+  const auto remedy = "turn it on in the renderer or the exporter, or name it with frame.position";
+  if (isFound(inspection, AovKind::position)) return;
+  if (!isFound(inspection, AovKind::depth)) {
+    add(inspection, FindingKind::missing, fmt::format("there is no Position pass, {}", use),
+        remedy);
+    return;
+  }
+  const VectorSpaces spaces = vectorSpaces(names, file, sidecar ? &sidecar->camera : nullptr);
+  const std::string fault = rebuildFault(spaces);
+  if (fault.empty())
+    add(inspection, FindingKind::warning,
+        fmt::format("there is no Position pass; positions are rebuilt from the depth and {}",
+                    spaces.camera->source),
+        "render a Position pass if the depth is filtered; frame.depth_kind says what it measures");
+  else
+    add(inspection, FindingKind::missing,
+        fmt::format("there is no Position pass, {}, and none can be rebuilt from the depth: {}",
+                    use, fault),
+        remedy);
+}
+
 void addMissing(Inspection& inspection) {
   const auto need = [&](AovKind kind, std::string_view use) {
     if (isFound(inspection, kind)) return;
@@ -67,7 +93,6 @@ void addMissing(Inspection& inspection) {
         fmt::format("turn it on in the renderer or the exporter, or name it with {}",
                     aovKey(kind)));
   };
-  need(AovKind::position, "the shadow search and the brush mapping");
   need(AovKind::normal, "shading and the surface labels");
   need(AovKind::beauty, "the background");
   if (!isFound(inspection, AovKind::objectIndex)) {
@@ -199,6 +224,7 @@ Inspection inspectFrame(const std::filesystem::path& path, const AovNames& names
   const auto sidecar = trySidecar(inspection);
   addLayers(inspection, whole);
   addAovs(inspection, file, sidecar ? namesWith(names, *sidecar) : names);
+  addPositions(inspection, file, names, sidecar);
   addMissing(inspection);
   addCryptomattes(inspection, file);
   addLossyPasses(inspection, file);

@@ -51,7 +51,7 @@ std::vector<SmoothPlace> smoothPlaces(Vec3View position, Vec3View normal,
       const V3f spanned = (below - above).cross(right - left);
       const V3f given = normal(x, y);
       if (!(spanned.length2() > 0) || !(given.length2() > 0)) continue;
-      places.push_back({given, spanned.normalized()});
+      places.push_back({given, spanned.normalized(), x, y});
     }
   return places;
 }

@@ -13,6 +13,7 @@ namespace kagefude {
 struct SmoothPlace {
   V3f given{0, 0, 0};
   V3f spanned{0, 0, 0};
+  int x = 0, y = 0;
 };
 
 /// Some 4,000 pixels, evenly over the frame, that see something (a position other than 0) and where

@@ -6,6 +6,8 @@
 
 #include "exr/image_file.h"
 #include "frame/aov_resolver.h"
+#include "frame/frame_camera.h"
+#include "frame/sidecar.h"
 #include "image/vec.h"
 
 namespace kagefude {
@@ -17,12 +19,25 @@ struct VectorSpaces {
   VectorSpace normal = VectorSpace::automatic;
   NormalRange range = NormalRange::automatic;
   std::string axes;
-  std::optional<Transform> cameraFromWorld;  ///< of the JSON, else of the header's worldToCamera
+  DepthKind depthKind = DepthKind::automatic;
+  bool rebuilt = false;               ///< positions come from depth, so they are in world space
+  std::optional<FrameCamera> camera;  ///< the look's, else the JSON's, else the header's
+
+  /// What to measure by where the look does not say.
+  DepthKind measuredAlong() const {
+    return depthKind == DepthKind::ray ? DepthKind::ray : DepthKind::planar;
+  }
 };
 
-/// The look's settings and the camera that the frame's header brings. LookError when normal_axes
-/// are not x, y and z, each once, each with an optional minus.
-VectorSpaces vectorSpaces(const AovNames& names, const ImageFile& file);
+/// The look's settings and the frame's camera: the look's own, else `json`'s (null: none), else the
+/// header's; a JSON's that is none, or of another view, stands behind the header's. LookError when
+/// normal_axes are not x, y and z, each once, each with an optional minus, or the look's matrices
+/// are no camera.
+VectorSpaces vectorSpaces(const AovNames& names, const ImageFile& file, const Camera* json);
+
+/// The camera, or an InputError that says why there is none; `needs` says what for.
+const FrameCamera& requireCamera(const VectorSpaces& spaces, const ImageFile& file,
+                                 std::string_view needs);
 
 /// Turns positions and normals into world space in place; background stays 0. `window` and
 /// `display` say where the planes lie in the picture: normals of a camera that neither JSON nor
@@ -31,6 +46,9 @@ VectorSpaces vectorSpaces(const AovNames& names, const ImageFile& file);
 /// InputError when a camera is needed and there is none. With nothing set nothing changes.
 void convertToWorld(const VectorSpaces& spaces, const ImageFile& file, Vec3Plane& position,
                     Vec3Plane& normal);
+
+/// What speaks against the camera: "" when it is certain, or is not used by these spaces.
+std::string doubtCamera(const VectorSpaces& spaces);
 
 /// What speaks against the positions' and normals' being in world space, with normals of -1..1.
 struct SpaceDoubt {

@@ -33,13 +33,13 @@ BrushResult cloneColours(const BrushResult& strokes) {
 FinishedPicture finish(const Look& look, const FramePlan& plan, const StagedFrame& frame) {
   BrushResult brush = cloneColours(*frame.strokes);
   FinishedPicture picture;
-  picture.outline = finishStrokes(plan, *frame.planes, frame.styles->surfaces, false, brush);
-  putBehindAndOver(look, *frame.planes, brush);
+  picture.outline = finishPicture(look, plan, *frame.planes, frame.styles->surfaces,
+                                  frame.surfaces->joins, false, brush);
   picture.frame.colour.x = std::move(brush.r);
   picture.frame.colour.y = std::move(brush.g);
   picture.frame.colour.z = std::move(brush.b);
   picture.frame.alpha = std::move(brush.a);
-  scaleDown(look, plan, *frame.surfaces, picture.frame);
+  scaleDown(look, plan, frame.surfaces->labels, picture.frame);
   return picture;
 }
 
@@ -55,7 +55,8 @@ LightStagesMade FrameStages::composeLight(const Look& look, const FramePlan& pla
   StageKey shadow = keyOf({frame.planes.version, frame.surfaces.version, index});
   addShadow(shadow, plan, light);
   made.shadow = stages.shadow.at(run, "shadow of " + light.name, std::move(shadow), [&] {
-    const ShadowWork work{light, plan, frame.planes->lights[index], *frame.planes, *frame.surfaces};
+    const ShadowWork work{light, plan, frame.planes->lights[index], *frame.planes,
+                          frame.surfaces->labels};
     return entryOf(light.method).function(work);
   });
 
@@ -65,7 +66,8 @@ LightStagesMade FrameStages::composeLight(const Look& look, const FramePlan& pla
     StageKey smooth = keyOf({made.shadow.version, frame.surfaces.version});
     smooth.add(smoothTable, &light.passes.smooth);
     made.visibility = stages.smoothed.at(run, "smoothing of " + light.name, std::move(smooth), [&] {
-      return smoothWithinSurfaces(made.shadow->visibility, *frame.surfaces, light.passes.smooth);
+      return smoothWithinSurfaces(made.shadow->visibility, frame.surfaces->labels,
+                                  light.passes.smooth);
     });
   } else {
     stages.smoothed = {};
@@ -77,7 +79,7 @@ LightStagesMade FrameStages::composeLight(const Look& look, const FramePlan& pla
   tone.add(light.strength).add(look.passes.tone.light);
   tone.add(shadeTable, &light.passes.shade).add(mergeTable, &light.passes.merge);
   made.tone = stages.tone.at(run, "tone of " + light.name, std::move(tone), [&] {
-    return lightTone(look, light, *made.visibility, *frame.planes, *frame.surfaces, nullptr);
+    return lightTone(look, light, *made.visibility, *frame.planes, frame.surfaces->labels, nullptr);
   });
   return made;
 }
@@ -101,7 +103,7 @@ Made<Floats> FrameStages::composeTone(const Look& look, const FramePlan& plan,
   });
 }
 
-void FrameStages::paint(const Look& look, const Made<LiveStrips>& strips, const FramePlan& plan,
+void FrameStages::paint(const Look& look, const Made<StripSet>& strips, const FramePlan& plan,
                         StagedFrame& frame, StageRun& run) {
   StageKey strokes = keyOf({frame.planes.version, strips.version});
   addStrokes(strokes, look, plan);
@@ -109,7 +111,7 @@ void FrameStages::paint(const Look& look, const Made<LiveStrips>& strips, const 
   addStyleColours(styles, look);
   frame.styles = styles_.at(run, "styles", std::move(styles), [&] {
     DoubtedStyles doubted;
-    doubted.surfaces = styleSurfaces(look, strips->set, plan, *frame.planes, doubted.warnings);
+    doubted.surfaces = styleSurfaces(look, *strips, plan, *frame.planes, doubted.warnings);
     return doubted;
   });
 
@@ -125,12 +127,12 @@ void FrameStages::paint(const Look& look, const Made<LiveStrips>& strips, const 
 
   strokes.add(frame.tone.version);
   frame.strokes = strokes_.at(run, "strokes", std::move(strokes), [&] {
-    return paintStyles(strips->set, *frame.planes, *frame.tone, styled, false);
+    return paintStyles(*strips, *frame.planes, *frame.tone, styled, false);
   });
 
   StageKey picture = keyOf(
       {frame.strokes.version, frame.styles.version, frame.planes.version, frame.surfaces.version});
-  picture.add(look.output.background).add(look.output.scale);
+  picture.add(look.output.background).add(look.output.edges).add(look.output.scale);
   frame.picture =
       picture_.at(run, "picture", std::move(picture), [&] { return finish(look, plan, frame); });
 }
@@ -143,7 +145,7 @@ void FrameStages::forgetLights(const FramePlan& plan) {
   });
 }
 
-StagedFrame FrameStages::compose(const Look& look, const Made<LiveStrips>& strips,
+StagedFrame FrameStages::compose(const Look& look, const Made<StripSet>& strips,
                                  const FramePlan& plan, const Made<FramePlanes>& planes,
                                  StageRun& run) {
   StagedFrame frame;
@@ -153,7 +155,10 @@ StagedFrame FrameStages::compose(const Look& look, const Made<LiveStrips>& strip
   StageKey surfaces = keyOf({planes.version});
   surfaces.add(surfacesTable, &look.passes.surfaces);
   frame.surfaces = surfaces_.at(run, "surfaces", std::move(surfaces), [&] {
-    return labelSurfaces(planes->objectId, planes->normal, planes->position, look.passes.surfaces);
+    FrameSurfaces made;
+    made.labels = labelSurfaces(planes->objectId, planes->normal, planes->position,
+                                look.passes.surfaces, &made.joins);
+    return made;
   });
   for (size_t i = 0; i < plan.lights.size(); ++i)
     frame.lights.push_back(composeLight(look, plan, i, frame, run));

@@ -14,13 +14,10 @@
 
 namespace kagefude {
 
-/// Strips with the colour configuration that they need to stay.
-struct LiveStrips {
-  LiveStrips(const Look& look, std::shared_ptr<const Colour> with)
-      : colour(std::move(with)), set(look, *colour) {}
-
-  std::shared_ptr<const Colour> colour;
-  StripSet set;
+/// Labels of a frame's surfaces, and which pixels are joined in them.
+struct FrameSurfaces {
+  Labels labels;
+  Bytes joins;
 };
 
 /// Surfaces with their styles, and what is doubted about them.
@@ -45,7 +42,7 @@ struct LightStagesMade {
 /// A frame with all its stages. Holds what it shows, whatever is made afterwards.
 struct StagedFrame {
   Made<FramePlanes> planes;
-  Made<Labels> surfaces;
+  Made<FrameSurfaces> surfaces;
   std::vector<LightStagesMade> lights;
   Made<DoubtedStyles> styles;
   Made<Floats> tone;  ///< brush.tone
@@ -62,7 +59,7 @@ class FrameStages {
   /// `look` has its lengths in painted pixels (inRenderedPixels); `planes` are those of `plan`.
   /// Throws Superseded between two stages when `run.stop` is asked for, else as composeFrame does;
   /// what was made until then stays.
-  StagedFrame compose(const Look& look, const Made<LiveStrips>& strips, const FramePlan& plan,
+  StagedFrame compose(const Look& look, const Made<StripSet>& strips, const FramePlan& plan,
                       const Made<FramePlanes>& planes, StageRun& run);
 
  private:
@@ -75,11 +72,11 @@ class FrameStages {
                                const StagedFrame& frame, StageRun& run);
   Made<Floats> composeTone(const Look& look, const FramePlan& plan, const StagedFrame& frame,
                            StageRun& run);
-  void paint(const Look& look, const Made<LiveStrips>& strips, const FramePlan& plan,
+  void paint(const Look& look, const Made<StripSet>& strips, const FramePlan& plan,
              StagedFrame& frame, StageRun& run);
   void forgetLights(const FramePlan& plan);
 
-  Stage<Labels> surfaces_;
+  Stage<FrameSurfaces> surfaces_;
   std::map<std::string, LightStages> lights_;
   Stage<Floats> sum_, tone_;
   Stage<DoubtedStyles> styles_;

@@ -2,7 +2,6 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
-#include <microhttpd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -10,6 +9,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "live/microhttpd.h"
 
 namespace kagefude {
 namespace {
@@ -23,7 +23,8 @@ struct Incoming {
 };
 
 std::string headerOf(MHD_Connection* connection, const char* name) {
-  const char* const value = MHD_lookup_connection_value(connection, MHD_HEADER_KIND, name);
+  const char* const value =
+      Microhttpd::loaded().lookupConnectionValue(connection, MHD_HEADER_KIND, name);
   return value ? value : "";
 }
 
@@ -36,7 +37,7 @@ MHD_Result addQuery(void* query, MHD_ValueKind, const char* key, const char* val
 /// What every response says to the browser.
 void addHeaders(MHD_Response* response, const HttpResponse& answer) {
   const auto add = [&](const char* name, const std::string& value) {
-    MHD_add_response_header(response, name, value.c_str());
+    Microhttpd::loaded().addResponseHeader(response, name, value.c_str());
   };
   add("Content-Type", answer.type);
   add("Cache-Control", "no-store");
@@ -52,13 +53,13 @@ void addHeaders(MHD_Response* response, const HttpResponse& answer) {
 }
 
 MHD_Result queue(MHD_Connection* connection, const HttpResponse& answer) {
-  MHD_Response* const response = MHD_create_response_from_buffer(
+  MHD_Response* const response = Microhttpd::loaded().createResponseFromBuffer(
       answer.body.size(), const_cast<char*>(answer.body.data()), MHD_RESPMEM_MUST_COPY);
   if (!response) return MHD_NO;
   addHeaders(response, answer);
-  const MHD_Result queued =
-      MHD_queue_response(connection, static_cast<unsigned>(answer.status), response);
-  MHD_destroy_response(response);
+  const MHD_Result queued = Microhttpd::loaded().queueResponse(
+      connection, static_cast<unsigned>(answer.status), response);
+  Microhttpd::loaded().destroyResponse(response);
   return queued;
 }
 
@@ -120,7 +121,8 @@ struct HttpServer::State {
       request.fetchSite = headerOf(connection, "Sec-Fetch-Site");
       if (const auto refused = refuse(request, address)) return queue(connection, *refused);
       if (claimsTooMuch(connection)) return queue(connection, tooLarge());
-      MHD_get_connection_values(connection, MHD_GET_ARGUMENT_KIND, &addQuery, &request.query);
+      Microhttpd::loaded().getConnectionValues(connection, MHD_GET_ARGUMENT_KIND, &addQuery,
+                                               &request.query);
       return MHD_YES;
     }
     std::string& body = incoming->request.body;
@@ -162,8 +164,9 @@ HttpServer::HttpServer(uint16_t port, std::string token, Answer answer)
     : state_(std::make_unique<State>()) {
   state_->address.token = std::move(token);
   state_->answer = std::move(answer);
+  const Microhttpd& library = Microhttpd::loaded();
   const int socket = listenOnLoopback(port, state_->address.port);
-  state_->daemon = MHD_start_daemon(
+  state_->daemon = library.startDaemon(
       MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_THREAD_PER_CONNECTION | MHD_USE_POLL,
       state_->address.port, nullptr, nullptr, &State::take, state_.get(), MHD_OPTION_LISTEN_SOCKET,
       socket, MHD_OPTION_NOTIFY_COMPLETED, &State::forget, nullptr, MHD_OPTION_CONNECTION_LIMIT,
@@ -174,7 +177,7 @@ HttpServer::HttpServer(uint16_t port, std::string token, Answer answer)
   throw OutputError("the page's server cannot be started");
 }
 
-HttpServer::~HttpServer() { MHD_stop_daemon(state_->daemon); }
+HttpServer::~HttpServer() { Microhttpd::loaded().stopDaemon(state_->daemon); }
 
 const PageAddress& HttpServer::address() const { return state_->address; }
 

@@ -19,7 +19,9 @@
 //   read        readFramePlanes              files (time, size, inode), [frame], channels asked for
 //   sample      sampleFrame                  step (only where the frame is larger than --size)
 //   colour      Colour                       the configuration's file
-//   strips      StripSet                     names and files of the strips, colour.strip
+//   strips      StripSet                     names and files of the strips, colour.strip; only
+//   those
+//                                            that changed are loaded
 //   surfaces    labelSurfaces                [surfaces]
 //   shadow      the method of each light     the light's place, size, masks, method; its passes
 //   smoothing   smoothWithinSurfaces         [smooth] (where the method's row asks for it)
@@ -28,7 +30,7 @@
 //   styles      styleSurfaces                [scene], lights, [brush], [outline], [tone], [[style]]
 //   tone        adjustTone                   the [tone] of each anchor
 //   strokes     paintStyles                  as styles, but for outlines, tone and albedo
-//   picture     finishStrokes ... scaleDown  output.background, output.scale
+//   picture     finishPicture, scaleDown     output.background, output.edges, output.scale
 //
 // A key may name more than its stage needs (a light's shadow counts the parameters of all methods):
 // that costs a stage for a knob that does nothing. It must never name less: tests/live turns every

@@ -1,5 +1,7 @@
 #include "live/live_frame.h"
 
+#include <set>
+
 #include "compositor/read_frame.h"
 #include "compositor/scale_down.h"
 #include "live/proxy.h"
@@ -8,27 +10,48 @@
 namespace kagefude {
 namespace {
 
-void addStrips(StageKey& key, const Look& look) {
-  key.add(look.folder.native()).add(look.colour.strip).add(look.styles.size());
+/// By its name, what each strip is made of.
+std::map<std::string, StageKey> stampsOf(const Look& look, const Made<Colour>& colour) {
+  std::map<std::string, StageKey> stamps;
   for (const StyleLook& style : look.styles) {
-    key.add(style.style.strip);
-    if (!isBuiltinStrip(style.style.strip)) addFile(key, look.resolve(style.style.strip));
+    StageKey& stamp = stamps[style.style.strip];
+    stamp.add(colour.version).add(look.colour.strip).add(look.folder.native());
+    if (!isBuiltinStrip(style.style.strip)) addFile(stamp, look.resolve(style.style.strip));
   }
+  stamps[StyleParams{}.strip].add(colour.version);
+  return stamps;
 }
 
 }  // namespace
 
-const Made<LiveStrips>& StripShelf::stripsOf(const Look& look, StageRun& run) {
+const Made<Colour>& StripShelf::colourOf(const Look& look, StageRun& run) {
   StageKey config;
   config.add(look.colourConfig());
   addFile(config, look.colourConfig());
-  const Made<Colour> colour =
-      colour_.at(run, "colour", std::move(config), [&] { return Colour(look.colourConfig()); });
-  StageKey strips;
-  strips.add(colour.version);
-  addStrips(strips, look);
-  return strips_.at(run, "strips", std::move(strips),
-                    [&] { return std::make_shared<const LiveStrips>(look, colour.value); });
+  return colour_.at(run, "colour", std::move(config), [&] { return Colour(look.colourConfig()); });
+}
+
+Made<StripSet> StripShelf::stripsOf(const Look& look, const Made<Colour>& colour, StageRun& run) {
+  std::map<std::string, StageKey> stamps = stampsOf(look, colour);
+  // In the order of the styles, which is that of the strips' numbers.
+  StageKey key;
+  for (const StyleLook& style : look.styles)
+    key.add(style.style.strip).add(stamps[style.style.strip]);
+  key.add(colour.version);
+  if (set_ && key == key_) return {set_, version_};
+  if (run.stop.stop_requested()) throw Superseded();
+  std::set<std::string> kept;
+  for (const auto& [name, stamp] : stamps_)
+    if (const auto now = stamps.find(name); now != stamps.end() && now->second == stamp)
+      kept.insert(name);
+  set_ = set_ ? std::make_shared<StripSet>(look, *colour, *set_, kept)
+              : std::make_shared<StripSet>(look, *colour);
+  colourOfSet_ = colour.value;
+  key_ = std::move(key);
+  stamps_ = std::move(stamps);
+  version_ = nextVersion();
+  run.made.push_back("strips");
+  return {set_, version_};
 }
 
 LivePicture LiveFrame::compose(const Look& look, StripShelf& shelf, int size,
@@ -41,10 +64,11 @@ LivePicture LiveFrame::compose(const Look& look, StripShelf& shelf, int size,
   addReading(reading, look, plan);
   const Made<FramePlanes> planes =
       planes_.at(run, "read", std::move(reading), [&] { return readFramePlanes(plan); });
-  picture.strips = shelf.stripsOf(look, run);
+  picture.colour = shelf.colourOf(look, run);
+  const Made<StripSet> strips = shelf.stripsOf(look, picture.colour, run);
   picture.step = size > 0 ? proxyStep(planes->width, planes->height, size) : 1;
   if (picture.step == 1) {
-    picture.stages = whole_.compose(inRenderedPixels(look), picture.strips, plan, planes, run);
+    picture.stages = whole_.compose(inRenderedPixels(look), strips, plan, planes, run);
     picture.plan = std::make_shared<const FramePlan>(std::move(plan));
   } else {
     StageKey sampling;
@@ -52,8 +76,7 @@ LivePicture LiveFrame::compose(const Look& look, StripShelf& shelf, int size,
     const Made<FramePlanes> samples = samples_.at(
         run, "sample", std::move(sampling), [&] { return sampleFrame(*planes, picture.step); });
     plan = samplePlan(std::move(plan), picture.step);
-    picture.stages =
-        proxy_.compose(sampleLook(look, picture.step), picture.strips, plan, samples, run);
+    picture.stages = proxy_.compose(sampleLook(look, picture.step), strips, plan, samples, run);
     picture.plan = std::make_shared<const FramePlan>(std::move(plan));
   }
   picture.made = std::move(run.made);

@@ -6,15 +6,22 @@
 
 namespace kagefude {
 
-/// A look's colour configuration and strips, kept while the look names the same ones and their
-/// files lie unchanged on disk.
+/// A look's colour configuration and strips. Each is kept while the look names it and its file lies
+/// unchanged on disk.
 class StripShelf {
  public:
-  const Made<LiveStrips>& stripsOf(const Look& look, StageRun& run);
+  const Made<Colour>& colourOf(const Look& look, StageRun& run);
+  /// The strips in the colours of `colour`, until the next call: strips that stay go over from one
+  /// set to the next, so nobody else may hold the set.
+  Made<StripSet> stripsOf(const Look& look, const Made<Colour>& colour, StageRun& run);
 
  private:
   Stage<Colour> colour_;
-  Stage<LiveStrips> strips_;
+  std::shared_ptr<const Colour> colourOfSet_;  ///< which the set refers to
+  std::shared_ptr<StripSet> set_;
+  uint64_t version_ = 0;
+  StageKey key_;
+  std::map<std::string, StageKey> stamps_;  ///< of each strip in the set
 };
 
 /// A picture with what it was made of: what the viewer shows and the probe reads.
@@ -22,7 +29,7 @@ struct LivePicture {
   std::shared_ptr<const Look> look;  ///< as it was asked for
   std::shared_ptr<const FramePlan> plan;
   StagedFrame stages;
-  Made<LiveStrips> strips;
+  Made<Colour> colour;
   int step = 1;                   ///< every how many pixels it was sampled; 1: equal to comp's
   std::vector<std::string> made;  ///< the stages that were made for it
 };

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "live/probe.h"
 #include "live/show_stage.h"
+#include "live/strip_choice.h"
 #include "look/parameter_json.h"
 
 namespace kagefude {
@@ -85,6 +86,23 @@ Json valuesOf(Look look) {
   return values;
 }
 
+Json listOf(const V3f& v) { return {v.x, v.y, v.z}; }
+
+/// The lights as they stand, and the picture's axes in the world, by which a light is dragged; only
+/// where a light may be moved.
+void addLights(Json& state, const FramePlan& plan) {
+  if (!plan.hasCasters || !plan.sidecar) return;
+  const Transform& camera = plan.sidecar->camera.cameraFromWorld;
+  for (const int row : {0, 1})
+    state["axes"].push_back({camera.m[row][0], camera.m[row][1], camera.m[row][2]});
+  for (const FrameLight& light : plan.lights)
+    state["lights"].push_back({{"name", light.name},
+                               {"type", lightTypeNames[static_cast<size_t>(light.light.type)]},
+                               {"position", listOf(light.light.position)},
+                               {"direction", listOf(light.light.direction)},
+                               {"subject", listOf(light.subjectCentre)}});
+}
+
 Json describe(const LiveSession& session, const LiveView& view) {
   Json state{{"version", view.version}, {"change", view.change}, {"error", view.error}};
   state["inputs"] = Json::array();
@@ -94,12 +112,14 @@ Json describe(const LiveSession& session, const LiveView& view) {
   const LivePicture& picture = *view.picture;
   state["input"] = view.input;
   state["step"] = picture.step;
+  state["onDisk"] = {{"style", view.stylesOnDisk}, {"light", view.lightsOnDisk}};
   state["painted"] = {picture.stages.planes->width, picture.stages.planes->height};
   state["stages"] = stageNames(picture);
-  const Colour& colour = *picture.strips->colour;
+  const Colour& colour = *picture.colour;
   for (const std::string& display : colour.displays())
     state["displays"][display] = colour.views(display);
   state["made"] = picture.made;
+  addLights(state, *picture.plan);
   state["warnings"] = picture.stages.warnings;
   state["values"] = valuesOf(*picture.look);
   return state;
@@ -108,6 +128,16 @@ Json describe(const LiveSession& session, const LiveView& view) {
 void addLength(std::string& bytes, size_t length) {
   for (int shift = 0; shift < 32; shift += 8)
     bytes.push_back(static_cast<char>(static_cast<unsigned char>(length >> shift)));
+}
+
+/// What the page reads pixels from: the length of the state, the state, the pixels.
+HttpResponse withPixels(const Json& state, const ShownPixels& pixels) {
+  const std::string text = state.dump(-1, ' ', true, Json::error_handler_t::replace);
+  HttpResponse response{.type = "application/octet-stream"};
+  addLength(response.body, text.size());
+  response.body += text;
+  response.body += pixels.bytes;
+  return response;
 }
 
 HttpResponse picture(const LiveSession& session, const HttpRequest& request) {
@@ -121,18 +151,27 @@ HttpResponse picture(const LiveSession& session, const HttpRequest& request) {
     pixels = showStage(*view.picture, textOf(request, "stage", "result"), viewing);
     state["size"] = {pixels.width, pixels.height};
   }
-  const std::string text = state.dump(-1, ' ', true, Json::error_handler_t::replace);
-  HttpResponse response{.type = "application/octet-stream"};
-  addLength(response.body, text.size());
-  response.body += text;
-  response.body += pixels.bytes;
-  return response;
+  return withPixels(state, pixels);
+}
+
+std::shared_ptr<const LivePicture> pictureNow(const LiveSession& session) {
+  LiveView view = session.view(0, std::chrono::milliseconds(0));
+  if (!view.picture) throw InputError("there is no picture yet");
+  return std::move(view.picture);
+}
+
+HttpResponse strips(const LiveSession& session) {
+  return json(stripsToChoose(session.settings().look.parent_path()));
+}
+
+HttpResponse strip(const LiveSession& session, const HttpRequest& request) {
+  const ShownPixels pixels =
+      showStrip(*pictureNow(session), session.readAsked({}).onDisk, textOf(request, "name"));
+  return withPixels({{"size", {pixels.width, pixels.height}}}, pixels);
 }
 
 HttpResponse probed(const LiveSession& session, const HttpRequest& request) {
-  const LiveView view = session.view(0, std::chrono::milliseconds(0));
-  if (!view.picture) throw InputError("there is no picture yet");
-  return json(probe(*view.picture, numberOf(request, "x", 0), numberOf(request, "y", 0)));
+  return json(probe(*pictureNow(session), numberOf(request, "x", 0), numberOf(request, "y", 0)));
 }
 
 std::vector<std::string> overridesOf(const Json& wanted) {
@@ -161,6 +200,8 @@ HttpResponse answerPage(LiveSession& session, const HttpRequest& request) {
       if (request.path == "/tables") return json(tables());
       if (request.path == "/picture") return picture(session, request);
       if (request.path == "/probe") return probed(session, request);
+      if (request.path == "/strips") return strips(session);
+      if (request.path == "/strip") return strip(session, request);
       for (const PageFile& file : pageFiles())
         if (file.path == request.path)
           return {.type = std::string(file.type), .body = std::string(file.content)};

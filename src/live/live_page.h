@@ -27,6 +27,8 @@ const std::vector<PageFile>& pageFiles();
 ///                          length (little-endian), that many of JSON, and the stage's pixels
 ///                          (showStage) unless nothing is new
 ///   GET  /probe?x=X&y=Y    what lies at a pixel
+///   GET  /strips           names of strips to choose from
+///   GET  /strip?name=S     a small picture of one, as /picture sends it
 ///   POST /change           {"overrides": ["brush.contrast=0.3"], "input": 0}
 ///   POST /save             {"overrides": [...]}: writes them into the look's file
 /// Whatever else is a 404; what is no JSON or of another shape a 400 that says so.

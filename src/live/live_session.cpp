@@ -12,18 +12,6 @@
 #include "look/write_look.h"
 
 namespace kagefude {
-namespace {
-
-/// The look as the page asks for it. It may be saved later, so it counts as an output.
-Look readAsked(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  const LooksAtOutputs looking;
-  Look look = readLook(path, overrides);
-  refuseForeignPaths(readLook(path, {}), look);
-  return look;
-}
-
-}  // namespace
-
 LiveSession::LiveSession(Settings settings) : settings_(std::move(settings)) {
   if (settings_.inputs.empty()) throw InputError("there is no frame to show");
   waiting_ = LiveChange{};
@@ -53,8 +41,15 @@ uint64_t LiveSession::change(LiveChange wanted) {
   return ++changes_;
 }
 
+AskedLook LiveSession::readAsked(const std::vector<std::string>& overrides) const {
+  const LooksAtOutputs looking;
+  AskedLook look{readLook(settings_.look, {}), readLook(settings_.look, overrides)};
+  refuseForeignPaths(look.onDisk, look.asked);
+  return look;
+}
+
 std::vector<std::string> LiveSession::save(const std::vector<std::string>& overrides) const {
-  readAsked(settings_.look, overrides);
+  readAsked(overrides);
   return saveLook(settings_.look, overrides);
 }
 
@@ -116,12 +111,13 @@ LiveFrame& LiveSession::frameOf(size_t input) {
 }
 
 void LiveSession::answer(bool whole) {
-  std::shared_ptr<const LivePicture> picture;
-  std::string error;
+  LiveView made;
   sharp_ = true;  // after an error there is nothing to sharpen
   files_ = filesNow();
   try {
-    const Look look = readAsked(settings_.look, now_.overrides);
+    const auto [onDisk, look] = readAsked(now_.overrides);
+    made.stylesOnDisk = onDisk.styles.size();
+    made.lightsOnDisk = onDisk.lights.size();
     strips_.clear();
     for (const StyleLook& style : look.styles)
       if (!isBuiltinStrip(style.style.strip)) strips_.push_back(look.resolve(style.style.strip));
@@ -131,28 +127,32 @@ void LiveSession::answer(bool whole) {
       const std::lock_guard lock(mutex_);
       if (whole) stop = sharpening_.get_token();
     }
-    picture = std::make_shared<const LivePicture>(
+    made.picture = std::make_shared<const LivePicture>(
         frameOf(now_.input).compose(look, shelf_, whole ? 0 : settings_.size, stop));
-    sharp_ = picture->step == 1;
+    sharp_ = made.picture->step == 1;
   } catch (const Superseded&) {
     sharp_ = false;
     return;
   } catch (const std::bad_alloc&) {
-    error = "out of memory";
+    made.error = "out of memory";
   } catch (const std::exception& problem) {
-    error = problem.what();
+    made.error = problem.what();
   }
-  publish(std::move(picture), std::move(error));
+  publish(std::move(made));
 }
 
-void LiveSession::publish(std::shared_ptr<const LivePicture> picture, std::string error) {
+/// An error leaves the last good picture with what belongs to it.
+void LiveSession::publish(LiveView made) {
   const std::lock_guard lock(mutex_);
-  ++view_.version;
-  view_.change = nowChange_;
-  view_.error = std::move(error);
-  if (picture) {
-    view_.picture = std::move(picture);
-    view_.input = now_.input;
+  made.version = view_.version + 1;
+  made.change = nowChange_;
+  made.input = now_.input;
+  if (made.picture) {
+    view_ = std::move(made);
+  } else {
+    view_.version = made.version;
+    view_.change = made.change;
+    view_.error = std::move(made.error);
   }
   changed_.notify_all();
 }

@@ -28,12 +28,19 @@ struct LiveChange {
   size_t input = 0;                    ///< which of the inputs
 };
 
+/// A look as it lies on disk, and as the page asks for it.
+struct AskedLook {
+  Look onDisk, asked;
+};
+
 /// What is to be seen now. `picture` is the last good one, whatever went wrong since.
 struct LiveView {
   uint64_t version = 0;  ///< rises with every view
   uint64_t change = 0;   ///< the change that it answers
   std::shared_ptr<const LivePicture> picture;
-  size_t input = 0;   ///< of the picture
+  size_t input = 0;  ///< of the picture
+  /// Entries of the look's file when the picture was made; what the page added has higher numbers.
+  size_t stylesOnDisk = 0, lightsOnDisk = 0;
   std::string error;  ///< what is wrong with the change; "" when the picture is its answer
 };
 
@@ -64,6 +71,11 @@ class LiveSession {
   /// InputError when there is no such input.
   uint64_t change(LiveChange wanted);
 
+  /// The look as its file is now, and with overrides of the page. It may be saved later, so reading
+  /// it does not count as reading an input. Throws LookError, also for files that the page may not
+  /// name (refuseForeignPaths).
+  AskedLook readAsked(const std::vector<std::string>& overrides) const;
+
   /// Writes overrides into the look's file (saveLook), which is then watched like any edit. Gives
   /// the overrides that bring back what was there. Throws as saveLook, and LookError for files that
   /// the page may not name.
@@ -84,7 +96,7 @@ class LiveSession {
   void answer(bool whole);
   LiveFrame& frameOf(size_t input);
   StageKey filesNow() const;
-  void publish(std::shared_ptr<const LivePicture> picture, std::string error);
+  void publish(LiveView made);
 
   const Settings settings_;
   mutable std::mutex mutex_;

@@ -84,7 +84,7 @@ FramePlanes sampleFrame(const FramePlanes& planes, int step) {
   result.coverageIds = sample(planes.coverageIds, step);
   result.coverageShares = sample(planes.coverageShares, step);
   for (const LightPlanes& light : planes.lights) result.lights.push_back(sample(light, step));
-  result.rays = sample(planes.rays, step);
+  if (planes.rays) result.rays = sample(*planes.rays, step);
   result.casting = planes.casting;
   // What is doubted is doubted about the whole frame.
   result.warnings = planes.warnings;

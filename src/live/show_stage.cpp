@@ -47,21 +47,6 @@ ShownPixels labels(View<const uint32_t> plane) {
   return drawn(plane.width, plane.height, [&](int x, int y) { return labelColour(plane(x, y)); });
 }
 
-ShownPixels seen(const LivePicture& picture, const Vec3View& colour, const Viewing& viewing) {
-  Vec3Plane shown(colour.width(), colour.height());
-  const float gain = std::exp2(viewing.exposure);
-  parallelRows(colour.height(), [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < colour.width(); ++x) shown.set(x, y, colour(x, y) * gain);
-  });
-  const ColourParams& spaces = picture.look->colour;
-  const bool own = !viewing.display.empty();
-  picture.strips->colour->toDisplay(shown.x, shown.y, shown.z,
-                                    own ? viewing.display : spaces.display,
-                                    own ? viewing.view : spaces.view);
-  return drawn(colour.width(), colour.height(), [&](int x, int y) { return shown.view()(x, y); });
-}
-
 struct NamedStage {
   std::string name;
   std::function<ShownPixels()> show;
@@ -73,7 +58,8 @@ std::vector<NamedStage> stagesOf(const LivePicture& picture, const Viewing& view
   const FramePlanes& planes = *frame.planes;
   std::vector<NamedStage> stages;
   const auto colour = [&](const char* name, Vec3View view) {
-    if (!view.empty()) stages.push_back({name, [&, view] { return seen(picture, view, viewing); }});
+    if (!view.empty())
+      stages.push_back({name, [&, view] { return showColours(picture, view, viewing); }});
   };
   const auto number = [&](std::string name, View<const float> view) {
     if (!view.empty()) stages.push_back({std::move(name), [view] { return grey(view); }});
@@ -86,7 +72,7 @@ std::vector<NamedStage> stagesOf(const LivePicture& picture, const Viewing& view
                       });
                     }});
   stages.push_back({"objects", [&] { return labels(planes.objectId); }});
-  stages.push_back({"surfaces", [&] { return labels(*frame.surfaces); }});
+  stages.push_back({"surfaces", [&] { return labels(frame.surfaces->labels); }});
   for (const LightStagesMade& light : frame.lights) {
     number("shadow." + light.name, light.shadow->visibility);
     number("visibility." + light.name, *light.visibility);
@@ -99,6 +85,21 @@ std::vector<NamedStage> stagesOf(const LivePicture& picture, const Viewing& view
 }
 
 }  // namespace
+
+ShownPixels showColours(const LivePicture& picture, const Vec3View& colour,
+                        const Viewing& viewing) {
+  Vec3Plane shown(colour.width(), colour.height());
+  const float gain = std::exp2(viewing.exposure);
+  parallelRows(colour.height(), [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < colour.width(); ++x) shown.set(x, y, colour(x, y) * gain);
+  });
+  const ColourParams& spaces = picture.look->colour;
+  const bool own = !viewing.display.empty();
+  picture.colour->toDisplay(shown.x, shown.y, shown.z, own ? viewing.display : spaces.display,
+                            own ? viewing.view : spaces.view);
+  return drawn(colour.width(), colour.height(), [&](int x, int y) { return shown.view()(x, y); });
+}
 
 std::vector<std::string> stageNames(const LivePicture& picture) {
   std::vector<std::string> names;

@@ -30,4 +30,8 @@ struct Viewing {
 ShownPixels showStage(const LivePicture& picture, const std::string& stage,
                       const Viewing& viewing = {});
 
+/// Colours of the working space as the display shows them. Throws LookError for an unknown display
+/// or view.
+ShownPixels showColours(const LivePicture& picture, const Vec3View& colour, const Viewing& viewing);
+
 }  // namespace kagefude

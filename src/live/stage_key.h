@@ -16,6 +16,7 @@ namespace kagefude {
 class StageKey {
  public:
   StageKey& add(std::string_view text);
+  StageKey& add(const StageKey& other) { return add(std::string_view(other.key_)); }
   StageKey& add(const V3f& v);
   StageKey& add(const Transform& transform);
   template <class T>

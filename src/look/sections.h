@@ -117,7 +117,7 @@ inline constexpr Parameter outputParameters[] = {
     number<&OutputParams::quality>("quality", 1, 100, "",
                                    "of JPEG and WebP; 100 makes WebP lossless"),
     number<&OutputParams::scale>(
-        "scale", 1, 4, "",
+        "scale", 1, 8, "",
         "how many times smaller than the frame the picture is written, filtered in linear light: "
         "2 for frames exported with --scale 2. Lengths in pixels are those of what is written"),
 };

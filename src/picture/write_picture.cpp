@@ -1,9 +1,13 @@
 #include "picture/write_picture.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <vector>
 
 #include "base/error.h"
 #include "base/printable.h"
@@ -55,6 +59,25 @@ SharedPixels sharedPixels(const std::filesystem::path& path, size_t bytes) {
   }
 }
 
+/// What the file system says to some more bytes of the file; "" when it takes them. Encoders end,
+/// or write on, without saying that a disk is full.
+std::string whyNoMore(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (file < 0) return "";
+  const std::vector<char> more(size_t{1} << 16);
+  int error = 0;
+  for (size_t done = 0; done < more.size() && error == 0;) {
+    const ssize_t written = ::write(file, more.data() + done, more.size() - done);
+    if (written > 0)
+      done += static_cast<size_t>(written);
+    else if (written == 0 || errno != EINTR)
+      error = written < 0 ? errno : ENOSPC;
+  }
+  if (error == 0 && ::fsync(file) != 0) error = errno;
+  ::close(file);
+  return error == 0 ? "" : std::generic_category().message(error);
+}
+
 }  // namespace
 
 void writePicture(const std::filesystem::path& path, const PictureHeader& header,
@@ -82,6 +105,7 @@ void writePicture(const std::filesystem::path& path, const PictureHeader& header
   const nlohmann::json answer =
       worker->ask(std::move(request), {harmless + 6 * bytes, 600}, shared.descriptor());
   if (answer.contains("error")) {
+    if (const std::string full = whyNoMore(file.path()); !full.empty()) refuse(path, full);
     std::string words = answer.at("error");
     const std::string temporary = file.path().filename().string();
     for (size_t at = 0; (at = words.find(temporary, at)) != std::string::npos;)
@@ -89,8 +113,11 @@ void writePicture(const std::filesystem::path& path, const PictureHeader& header
     refuse(path, printable(words));
   }
   std::error_code unknown;
-  if (isCutShort(file.path(), header, std::filesystem::file_size(file.path(), unknown)) || unknown)
-    refuse(path, "not all of it was taken by the disk; is it full?");
+  if (isCutShort(file.path(), header, std::filesystem::file_size(file.path(), unknown)) ||
+      unknown) {
+    const std::string full = whyNoMore(file.path());
+    refuse(path, full.empty() ? "not all of it was taken by the disk; is it full?" : full);
+  }
   file.commit();
 }
 

@@ -128,6 +128,50 @@ TEST_F(EdgesAndAlpha, TheBeautyFillsWhatTheStrokesLeave) {
   EXPECT_NEAR(colourAt(result, 2, 4).y, strokes.y + 0.75f * behind.y, 1e-6f);
 }
 
+// The render holds the thing as well, anti-aliased as its Cryptomatte is.
+TEST_F(EdgesAndAlpha, ASilhouetteShowsEachThingOnce) {
+  addCryptomatte(0.25f);
+  const V3f thing{0.9f, 0.4f, 0.1f}, sky{0.1f, 0.2f, 0.3f};
+  for (const float skyAlpha : {1.0f, 0.0f}) {
+    frame.addBeauty(thing, 1.0f);
+    for (int y = 0; y <= 4; ++y)
+      for (int x = 0; x < MapFrame::side; ++x) {
+        const float share = y == 4 ? 0.25f : 0.0f, open = (1 - share) * skyAlpha;
+        frame.plane("Combined.R")(x, y) = share * thing.x + open * sky.x;
+        frame.plane("Combined.G")(x, y) = share * thing.y + open * sky.y;
+        frame.plane("Combined.B")(x, y) = share * thing.z + open * sky.z;
+        frame.plane("Combined.A")(x, y) = share + open;
+      }
+    const V3f strokes = colourAt(frame.comp(transparent), 2, 4);
+    const FrameResult result = frame.comp("");
+    EXPECT_NEAR(result.alpha(2, 4), 0.25f + 0.75f * skyAlpha, 1e-6f);
+    const V3f expected = strokes + sky * (0.75f * skyAlpha);
+    EXPECT_NEAR(colourAt(result, 2, 4).x, expected.x, 1e-6f) << "no rim of the rendered thing";
+    EXPECT_NEAR(colourAt(result, 2, 4).y, expected.y, 1e-6f);
+    EXPECT_NEAR(colourAt(result, 2, 4).z, expected.z, 1e-6f);
+  }
+}
+
+TEST_F(EdgesAndAlpha, ThingsThatAreNotPaintedTakeNoPaintAtTheirEdges) {
+  addCryptomatte(0.25f);
+  nlohmann::json post = frame.sidecar["objects"][0];
+  post["name"] = "Post";
+  post["index"] = 77;
+  post["crypto"] = "3f900001";
+  post["painted"] = false;
+  frame.sidecar["objects"].push_back(post);
+  const uint32_t bits = 0x3f900001;
+  float id;
+  std::memcpy(&id, &bits, sizeof id);
+  for (int y = 0; y <= 4; ++y)
+    for (int x = 0; x < MapFrame::side; ++x) {
+      const bool meets = y == 4;
+      frame.plane(meets ? "CryptoObject00.b" : "CryptoObject00.r")(x, y) = id;
+      frame.plane(meets ? "CryptoObject00.a" : "CryptoObject00.g")(x, y) = meets ? 0.75f : 1.0f;
+    }
+  EXPECT_NEAR(frame.comp(transparent).alpha(2, 4), 0.25f, 1e-6f);
+}
+
 TEST_F(EdgesAndAlpha, OutlinesAreOpaqueInTheirColour) {
   const FrameResult result = frame.comp(std::string(transparent) +
                                         "outline.width = 3\n[[style]]\nobject = \"Thing\"\n"

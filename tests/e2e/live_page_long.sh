@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The page of kagefude live in headless Chromium: open, probe, turn, undo, click, wipe, save, a broken
-# look, edits on disk.    tests/e2e/live_page_long.sh [FOLDER for screenshots]
+# The page of kagefude live in headless Chromium: open, probe, turn, undo, click, strips, a dragged
+# light, wipe, save, a broken look, edits on disk.    tests/e2e/live_page_long.sh [FOLDER for screenshots]
 set -euo pipefail
 pictures=$(realpath -m "${1:-build/page/pictures}")
 source "$(dirname "${BASH_SOURCE[0]}")/frames.sh"
@@ -16,7 +16,7 @@ if ! cmp -s tests/page/package-lock.json "$modules/package-lock.json" || [ ! -d 
   npm ci --prefix "$modules" --no-audit --no-fund >"$work/npm" 2>&1 ||
     { rm -rf "$modules/node_modules"; cat "$work/npm" >&2; skip "playwright-core cannot be had from npm here"; }
 fi
-KAGEFUDE=$kagefude DATA=$data MODULES=$(realpath "$modules/node_modules") PICTURES=$pictures \
+KAGEFUDE=$kagefude DATA=$data CASTERS=$PWD/tests/data/casters MODULES=$(realpath "$modules/node_modules") PICTURES=$pictures \
   timeout 240 node --test tests/page/live_page_test.mjs >"$work/tap" 2>&1 && pass || { cat "$work/tap" >&2; fail "the page"; }
 grep -E '^# (tests|pass) |^ℹ (tests|pass) ' "$work/tap"
 summary

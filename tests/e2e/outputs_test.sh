@@ -168,6 +168,7 @@ if [ "$(id -u)" -eq 0 ] && mkdir full && mount -t tmpfs -o size=4k tmpfs full 2>
   for suffix in png tif jpg dpx webp; do
     code=$(exit_code comp one.0001.exr full/a.$suffix)
     check "a full disk and .$suffix: exit $code" test "$code" -eq 1
+    check "a full disk is not named for .$suffix: $(cat "$work/log")" grep -q "a.$suffix cannot be written: No space left" "$work/log"
     check "a full disk keeps a piece of a .$suffix" test -z "$(ls -A full)"
   done
   umount full

@@ -3,6 +3,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfMultiView.h>
 #include <OpenEXR/ImfOutputPart.h>
@@ -30,6 +31,7 @@ struct PartSpec {
   Channels channels;
   Window window = {};  ///< 0 x 0: all of the display
   std::map<std::string, std::string> attributes = {};
+  std::map<std::string, Imath::M44f> matrices = {};
 };
 
 /// Writes parts whose display window is `width` x `height`, with `views` as the multiView list.
@@ -47,6 +49,7 @@ inline void writeParts(const std::filesystem::path& path, int width, int height,
     if (!views.empty()) Imf::addMultiView(header, views);
     for (const auto& [name, value] : part.attributes)
       header.insert(name, Imf::StringAttribute(value));
+    for (const auto& [name, value] : part.matrices) header.insert(name, Imf::M44fAttribute(value));
     for (const auto& [name, plane] : part.channels)
       header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     headers.push_back(header);

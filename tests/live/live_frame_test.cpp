@@ -66,9 +66,9 @@ class Live : public ::testing::Test, protected testing::SweepFrame {
     const Look look = lookOf(text, set);
     StageRun run;
     if (stripsAnew) wholeShelf = {};
-    const Made<LiveStrips> strips = wholeShelf.stripsOf(look, run);
+    const Made<StripSet> strips = wholeShelf.stripsOf(look, wholeShelf.colourOf(look, run), run);
     const FramePlan plan = planFrame(look, live.path(), 1);
-    const FrameResult whole = composeFrame(look, strips->set, plan, readFramePlanes(plan));
+    const FrameResult whole = composeFrame(look, *strips, plan, readFramePlanes(plan));
     std::vector<std::string> names;
     for (const FrameLight& light : plan.lights) names.push_back(light.name);
     return pixelsOf(whole, names, [&](const std::string& name) {

@@ -133,6 +133,8 @@ TEST_F(Session, ThePageGetsStateAndPixelsInOneAnswer) {
     EXPECT_EQ(answer.body.size(), 4 + state.dump(-1, ' ', true).size() + width * height * 4)
         << stage;
     EXPECT_EQ(state["values"]["style"][0]["style"]["strip"], "builtin:soft");
+    EXPECT_EQ(state["onDisk"], (nlohmann::json{{"style", 1}, {"light", 0}}));
+    EXPECT_EQ(state["lights"][0]["name"], "Key");
   }
   EXPECT_EQ(get("/picture", {{"stage", "nothing"}}).status, 400);
   EXPECT_EQ(get("/picture", {{"exposure", "much"}}).status, 400);
@@ -156,7 +158,8 @@ TEST_F(Session, ThePageIsAnsweredOrRefusedInWords) {
     return answerPage(session, {.method = method, .path = path, .body = body}).status;
   };
   for (const char* path :
-       {"/", "/main.js", "/link.js", "/viewer.js", "/knobs.js", "/style.css", "/tables"})
+       {"/", "/main.js", "/link.js", "/viewer.js", "/knobs.js", "/history.js", "/strips.js",
+        "/own_entry.js", "/light_drag.js", "/style.css", "/tables", "/strips"})
     EXPECT_EQ(ask("GET", path, ""), 200) << path;
   for (const char* path : {"/look.toml", "/main.js/", "/page/main.js", ""})
     EXPECT_EQ(ask("GET", path, ""), 404) << path;

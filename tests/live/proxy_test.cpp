@@ -44,9 +44,9 @@ TEST_F(Proxy, RaysGoThroughTheSampledPixels) {
     for (const int at : {0, 4}) {
       const double there = at * step + step / 2 + 0.5;
       EXPECT_LT(
-          (samples.rays.origin(at + 0.5, at + 0.5) - whole.rays.origin(there, there)).length(),
+          (samples.rays->origin(at + 0.5, at + 0.5) - whole.rays->origin(there, there)).length(),
           1e-12);
-      EXPECT_LT((samples.rays.direction(at + 0.5, at + 0.5) - whole.rays.direction(there, there))
+      EXPECT_LT((samples.rays->direction(at + 0.5, at + 0.5) - whole.rays->direction(there, there))
                     .length(),
                 1e-12);
     }

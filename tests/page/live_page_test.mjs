@@ -1,5 +1,6 @@
 // The page of `kagefude live` in a real browser:
-//   KAGEFUDE=program DATA=tests/data/still MODULES=folder/node_modules PICTURES=folder node --test FILE
+//   KAGEFUDE=program DATA=tests/data/still CASTERS=tests/data/casters MODULES=folder/node_modules
+//   PICTURES=folder node --test FILE
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -8,7 +9,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, beforeEach, test } from 'node:test';
 
-const { KAGEFUDE, DATA, MODULES, PICTURES } = process.env;
+const { KAGEFUDE, DATA, CASTERS, MODULES, PICTURES } = process.env;
 const { chromium } = createRequire(join(MODULES, 'x.js'))('playwright-core');
 const folder = mkdtempSync(join(tmpdir(), 'kagefude_page_'));
 const look = join(folder, 'look.toml');
@@ -30,13 +31,18 @@ let browser;
 let page;
 const strange = []; // what should not happen, whatever is done
 
+/** Serves a frame; gives the process and the page's address. */
+async function serve(path) {
+  const served = spawn(KAGEFUDE, ['live', look, path, '--no-open']);
+  return [served, await new Promise((resolve, reject) => {
+    served.stdout.once('data', (text) => resolve(String(text).trim()));
+    served.once('exit', (code) => reject(new Error(`kagefude live ended with ${code}`)));
+  })];
+}
+
 before(async () => {
   writeFileSync(look, start);
-  program = spawn(KAGEFUDE, ['live', look, frame, '--no-open']);
-  address = await new Promise((resolve, reject) => {
-    program.stdout.once('data', (text) => resolve(String(text).trim()));
-    program.once('exit', (code) => reject(new Error(`kagefude live ended with ${code}`)));
-  });
+  [program, address] = await serve(frame);
   browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu'] });
 });
 
@@ -55,7 +61,7 @@ beforeEach(async () => {
   page.on('console', (message) => message.type() === 'error' && strange.push(message.text()));
   page.on('pageerror', (error) => strange.push(error.message));
   page.on('request', (request) => {
-    if (!request.url().startsWith(address) && !request.url().startsWith('data:'))
+    if (!request.url().startsWith('http://127.0.0.1:') && !request.url().startsWith('data:'))
       strange.push(request.url());
   });
   await page.goto(address);
@@ -210,6 +216,62 @@ test('a click on a thing opens its style, or begins one for it', async () => {
   await page.waitForFunction(() => document.getElementById('save').disabled);
   assert.equal(readFileSync(look, 'utf8'),
     `${start}\n[[style]]\nobject = ["Table"]\nstrip = "builtin:fine"\n`);
+});
+
+test('strips are chosen from their pictures', async () => {
+  const first = await shownWhere(() => true, 'a picture');
+  await page.mouse.click(...await placeOf('Vase'));
+  await page.click('.knob .open');
+  // A canvas that nothing was drawn to is 300 wide.
+  await page.waitForFunction(() =>
+    ![null, undefined, 300].includes(
+      document.querySelector('.strips button[title="builtin:cel"] canvas')?.width));
+  await page.click('.strips button[title="builtin:cel"]');
+  await shownWhere((now) => now !== first, 'the vase in another strip');
+  assert.equal(await knob('style[0].strip').inputValue(), 'builtin:cel');
+  await picture('strips.png');
+});
+
+test('a style that is in no file yet stays what it is when the file gets another one', async () => {
+  await page.mouse.click(...await placeOf('Table'));
+  await page.click('#own');
+  await page.waitForSelector('#scope [value="style 1"]', { state: 'attached' });
+  const other = '\n[[style]]\nobject = "Pear"\nstrip = "builtin:cel"\n';
+  writeFileSync(look, start + other);
+  await page.waitForSelector('#scope [value="style 2"]', { state: 'attached' });
+  const names = await page.locator('#scope option').allTextContents();
+  assert.deepEqual(names, ['whole look', 'style 1 Vase', 'style 2 Pear', 'style 3 Table']);
+  await page.click('#save');
+  await page.waitForFunction(() => document.getElementById('save').disabled);
+  assert.equal(readFileSync(look, 'utf8'), `${start}${other}\n[[style]]\nobject = ["Table"]\n`);
+});
+
+test('a light is dragged where the frame has the shapes that cast its shadow', async () => {
+  assert.ok(await page.isHidden('#light'));
+  const [served, place] = await serve(join(CASTERS, 'shot.0001.exr'));
+  try {
+    await page.goto(place);
+    await page.waitForSelector('#light:visible');
+    await page.selectOption('#light', 'Key');
+    const first = await shownWhere(() => true, 'a picture');
+    const box = await page.locator('#canvas').boundingBox();
+    await page.mouse.move(box.x + 300, box.y + 300);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 420, box.y + 330, { steps: 5 });
+    await page.mouse.up();
+    const moved = await shownWhere((now) => now !== first, 'the light from elsewhere');
+    await page.waitForFunction(() => document.querySelector('#scope [value="light 0"]'));
+    await page.selectOption('#scope', 'light 0');
+    assert.match(await knob('light[0].position').inputValue(), /^-?[\d.]+(, -?[\d.]+){2}$/);
+    await picture('dragged_light.png');
+    await page.click('#undo');
+    await shownWhere((now) => now === first, 'the light where it was');
+    await page.click('#redo');
+    await shownWhere((now) => now === moved, 'the moved light again');
+  } finally {
+    await page.close(); // which else would complain that nobody answers
+    served.kill('SIGINT');
+  }
 });
 
 test('a wipe shows the beauty beside the result', async () => {

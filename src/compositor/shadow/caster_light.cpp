@@ -9,7 +9,7 @@
 namespace kagefude {
 
 SeenSurface seenSurface(const FramePlanes& frame) {
-  return {frame.position, frame.normal, frame.objectId, frame.rays};
+  return {frame.position, frame.normal, frame.objectId, *frame.rays};
 }
 
 LightPlace placeOf(const Light& light) {

@@ -1,13 +1,14 @@
 // What was turned, with undo and redo. A state is a map from a path to its TOML.
 
-const newStyle = /^style\[(\d+)\]\.object$/;
+const entry = /^(style|light)\[(\d+)\]\./;
+const naming = /^(style\[\d+\]\.object|light\[\d+\]\.name)$/;
 
 export class History {
   overrides = new Map();
   #past = [];
   #future = [];
   #turning = null;
-  #made = new Set(); // numbers of the styles that are in no file yet
+  #made = new Set(); // the first keys of styles and lights that are in no file yet
 
   /** `changed()` is told of every new state. */
   constructor(changed) {
@@ -21,27 +22,60 @@ export class History {
 
   /** One turn of a knob is one step of undo, however many values it runs through. */
   set(path, text) {
-    this.#begin(path);
-    this.overrides.set(path, text);
+    this.setAll(path, [[path, text]]);
+  }
+
+  /** The same for several [path, text] that one hand turns, which `turning` names. A new style or
+   * light begins with its object or name. */
+  setAll(turning, entries) {
+    this.#begin(turning);
+    for (const [path, text] of entries) this.overrides.set(path, text);
     this.changed();
   }
 
-  /** Back to what the file says. A style that the file has not goes as a whole. */
+  /** Begins a style or light: `entries` of [path, text], of which the first names it. */
+  add(turning, entries) {
+    this.#made.add(entries[0][0]);
+    this.setAll(turning, entries);
+  }
+
+  /** Back to what the file says. What the file has not goes as a whole, and what came after it. */
   reset(path) {
     this.#begin(null);
     this.overrides.delete(path);
-    const number = Number(newStyle.exec(path)?.[1] ?? -1);
-    if (this.#made.has(number))
-      for (const other of [...this.overrides.keys()])
-        if (Number(/^style\[(\d+)\]/.exec(other)?.[1] ?? -1) >= number) this.overrides.delete(other);
+    if (this.#made.has(path) && naming.test(path)) {
+      const [, list, number] = entry.exec(path);
+      for (const other of [...this.overrides.keys()]) {
+        const [, otherList, otherNumber] = entry.exec(other) ?? [];
+        if (otherList === list && Number(otherNumber) >= Number(number)) this.overrides.delete(other);
+      }
+    }
     this.changed();
   }
 
-  /** Begins a style: `entries` of [path, text], of which the first names its object. */
-  add(entries) {
-    this.#begin(null);
-    for (const [path, text] of entries) this.overrides.set(path, text);
-    this.#made.add(Number(newStyle.exec(entries[0][0])[1]));
+  /** `counts` says how many entries of each list the file has. When another program added or took
+   * some, those that are in no file yet get other numbers. */
+  renumber(counts) {
+    for (const list of ['style', 'light']) {
+      const numbers = [...this.#made].map((path) => entry.exec(path))
+        .filter(([, of]) => of === list).map(([, , number]) => Number(number));
+      const shift = counts[list] - Math.min(...numbers);
+      if (numbers.length && shift) this.#shift(list, Math.min(...numbers), shift);
+    }
+  }
+
+  #shift(list, first, shift) {
+    const renamed = (path) => {
+      const [, of, number] = entry.exec(path) ?? [];
+      return of === list && Number(number) >= first
+        ? path.replace(entry, `${list}[${Number(number) + shift}].`)
+        : path;
+    };
+    const all = (state) => new Map([...state].map(([path, text]) => [renamed(path), text]));
+    this.overrides = all(this.overrides);
+    this.#past = this.#past.map(all);
+    this.#future = this.#future.map(all);
+    this.#made = new Set([...this.#made].map(renamed));
     this.changed();
   }
 
@@ -54,7 +88,7 @@ export class History {
   }
 
   /** `written` states are in the file now; `before` brings back what it had, so that undo goes on
-   * working across a save. A new style cannot be taken out of the file again. */
+   * working across a save. A new style or light cannot be taken out of the file again. */
   saved(written, before) {
     if (this.#made.size) this.#past = [];
     this.#future = [];

@@ -1,4 +1,5 @@
 // Knobs for every parameter of one scope, made of the program's own tables.
+import { stripChoice } from './strips.js';
 
 /** TOML spells these as JSON does. */
 const spell = (value) => JSON.stringify(value);
@@ -125,6 +126,10 @@ export class Knobs {
     const plain = element('button', { textContent: '⌂', title: `default ${standard}` });
     plain.onclick = () => this.turned(path, standard);
     const row = element('div', { className: 'knob' }, label, ...parts, plain, back);
+    if (pass === 'style' && parameter.name === 'strip') {
+      row.append(...stripChoice((name) => this.turned(path, spell(name))));
+      parts[0].classList.add('beside');
+    }
     const words = `${pass}.${parameter.name} ${parameter.help}`.toLowerCase();
     this.#knobs.push({ row, path, pass, name: parameter.name, write, words, standard });
     return row;

@@ -9,6 +9,15 @@ export async function probe(x, y) {
   return (await fetch(`probe?x=${x}&y=${y}`)).json();
 }
 
+export async function strips() {
+  return (await fetch('strips')).json();
+}
+
+/** A small picture of a strip. */
+export async function strip(name) {
+  return (await received(await fetch(`strip?${new URLSearchParams({ name })}`))).pixels;
+}
+
 async function post(where, what) {
   const response = await fetch(where, { method: 'POST', body: JSON.stringify(what) });
   if (!response.ok) throw new Error(await response.text());
@@ -47,9 +56,8 @@ export class Changes {
   }
 }
 
-/** The state and the pixels (or null) of a view above `seen`, looked at as `wanted` says. */
-async function picture(seen, wanted, signal) {
-  const response = await fetch(`picture?${new URLSearchParams({ seen, ...wanted })}`, { signal });
+/** The state and the pixels (or null) of an answer. */
+async function received(response) {
   if (!response.ok) throw new Error(await response.text());
   const buffer = await response.arrayBuffer();
   const length = new DataView(buffer).getUint32(0, true);
@@ -58,6 +66,12 @@ async function picture(seen, wanted, signal) {
     ? new ImageData(new Uint8ClampedArray(buffer, 4 + length), ...state.size)
     : null;
   return { state, pixels };
+}
+
+/** Those of a view above `seen`, looked at as `wanted` says. */
+async function picture(seen, wanted, signal) {
+  const query = new URLSearchParams({ seen, ...wanted });
+  return received(await fetch(`picture?${query}`, { signal }));
 }
 
 /** What there is now. */

@@ -2,7 +2,8 @@
 import { History } from './history.js';
 import { Knobs } from './knobs.js';
 import { Changes, Pictures, pictureNow, probe, save, tables } from './link.js';
-import { ownStyle } from './own_style.js';
+import { ownLight, ownStyle } from './own_entry.js';
+import { draggedLight } from './light_drag.js';
 import { Viewer } from './viewer.js';
 
 const at = (id) => document.getElementById(id);
@@ -25,11 +26,14 @@ function send() {
   changes.send({ overrides: spelled(), input: Number(at('input').value || 0) });
 }
 addEventListener('change', () => history.rest());
+addEventListener('pointerup', () => history.rest());
 addEventListener('beforeunload', (event) => history.overrides.size && event.preventDefault());
 
+let saving = false; // the file may have the new entries before its answer is here
 async function saveAll() {
   const written = [...history.overrides];
-  if (!written.length) return;
+  if (!written.length || saving) return;
+  saving = true;
   try {
     const before = await save(spelled());
     history.saved(written, before.map((text) => {
@@ -39,11 +43,12 @@ async function saveAll() {
   } catch (problem) {
     complain(problem.message);
   }
+  saving = false;
 }
 
 // What is pointed at.
 
-const viewer = new Viewer(at('canvas'), pointed, clicked);
+const viewer = new Viewer(at('canvas'), pointed, clicked, takeLight);
 let probing = false;
 async function pointed(x, y) {
   if (probing || !state) return;
@@ -72,15 +77,30 @@ async function clicked(x, y) {
   if (found.object === null) return;
   at('picked-name').textContent = found.object;
   at('own').onclick = () => {
-    const number = state.values.style.length;
-    wantedScope = `style ${number}`;
-    history.add(ownStyle(found, state.values, list, number));
+    wantedScope = `style ${state.values.style.length}`;
+    history.add(null, ownStyle(found, state.values, list));
     at('picked').hidden = true;
   };
   if (found.style === undefined) return;
   const { object } = state.values.style[found.style].style;
   at('picked').hidden = object.length === 1 && object[0] === found.object;
   choose(`style ${found.style}`);
+}
+
+/** What the hand does with the chosen light from now on; nothing when none is chosen. */
+function takeLight() {
+  const light = state?.lights?.find(({ name }) => name === at('light').value);
+  if (!light) return null;
+  const { axes } = state;
+  const known = state.values.light.findIndex((own) => own.light.name === light.name);
+  const number = known < 0 ? state.values.light.length : known;
+  const prefix = `light[${number}].`;
+  const own = ownLight(light.name, state.values, list);
+  return (across, down) => {
+    const keys = draggedLight(light, axes, across, down).map(([key, text]) => [prefix + key, text]);
+    if (known >= 0) history.setAll(prefix, keys);
+    else history.add(prefix, [...own, ...keys]);
+  };
 }
 
 // The knobs.
@@ -159,9 +179,15 @@ function fill(select, options) {
   if (options.some(([value]) => value === chosen)) select.value = chosen;
 }
 
-function showLists({ inputs, input, displays, stages }) {
+function showLists({ inputs, input, displays, stages, lights = [] }) {
+  fill(at('light'), [['', 'the picture'], ...lights.map(({ name }) => [name, name])]);
+  at('light').parentElement.hidden = !lights.length;
   fill(at('input'), inputs.map((name, i) => [String(i), name]));
-  if (document.activeElement !== at('input')) at('input').value = input ?? 0;
+  const active = document.activeElement;
+  if (active !== at('input') && active !== at('frames')) at('input').value = input ?? 0;
+  at('frames').hidden = inputs.length < 2;
+  at('frames').max = inputs.length - 1;
+  if (active !== at('frames')) at('frames').value = at('input').value;
   const views = Object.entries(displays).flatMap(([display, names]) =>
     names.map((view) => [JSON.stringify([display, view]), `${display}, ${view}`]));
   fill(at('display'), [['["",""]', "the look's"], ...views]);
@@ -182,6 +208,7 @@ const pictures = new Pictures(() => ({ stage, ...viewing() }), (now, pixels) => 
   state = now;
   complain(now.error);
   if (!now.values) return;
+  if (!now.error && !saving) history.renumber(now.onDisk);
   showLists(now);
   if (pixels) {
     shownPixels = pixels;
@@ -202,6 +229,10 @@ const pictures = new Pictures(() => ({ stage, ...viewing() }), (now, pixels) => 
 at('scope').onchange = () => choose(at('scope').value);
 at('search').oninput = () => knobs.search(at('search').value);
 at('input').onchange = send;
+at('frames').oninput = () => {
+  at('input').value = at('frames').value;
+  send();
+};
 at('fit').onclick = () => viewer.fit();
 at('one').onclick = () => viewer.oneToOne();
 at('undo').onclick = () => history.undo();

@@ -13,10 +13,11 @@ export class Viewer {
   #y = 0;
   #full = [1, 1];
 
-  /** `pointed(x, y)` and `clicked(x, y)` get the pixel of the picture under the pointer. */
-  constructor(canvas, pointed, clicked) {
-    this.canvas = canvas;
-    this.clicked = clicked;
+  /** `pointed(x, y)` and `clicked(x, y)` get the pixel of the picture under the pointer. `taken()`
+   * gives what a drag does instead of moving the picture, or null: a function of the way right and
+   * down, as shares of the canvas. */
+  constructor(canvas, pointed, clicked, taken) {
+    Object.assign(this, { canvas, clicked, taken });
     this.#context = canvas.getContext('2d');
     new ResizeObserver(() => this.draw()).observe(canvas);
     canvas.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });
@@ -125,7 +126,7 @@ export class Viewer {
   #drag(start) {
     const wipes =
       this.#other && Math.abs(start.offsetX - this.#line() / devicePixelRatio) <= grip;
-    const follow = wipes ? this.#wiping() : this.#panning(start);
+    const follow = wipes ? this.#wiping() : this.#moving(start, this.taken());
     let moved = wipes;
     const move = (event) => {
       moved ||= Math.hypot(event.clientX - start.clientX, event.clientY - start.clientY) > still;
@@ -149,6 +150,15 @@ export class Viewer {
       this.#wipe = Math.min(1, Math.max(0, share));
       this.draw();
     };
+  }
+
+  #moving(start, taken) {
+    if (!taken) return this.#panning(start);
+    const { clientWidth } = this.canvas;
+    return (event) => taken(
+      (event.clientX - start.clientX) / clientWidth,
+      (event.clientY - start.clientY) / clientWidth,
+    );
   }
 
   #panning(start) {

@@ -6,7 +6,6 @@
 namespace kagefude {
 namespace {
 
-constexpr float smallestShare = 1.0f / 512.0f;
 constexpr float fullShare = 1.0f - smallestShare;
 
 Rgba colourAt(const ColourViews& c, int x, int y) {

@@ -13,6 +13,9 @@ struct CoverageRank {
   View<const float> coverage;
 };
 
+/// Coverage below counts as none.
+inline constexpr float smallestShare = 1.0f / 512.0f;
+
 /// Scene-linear colour with associated alpha.
 struct ColourViews {
   View<const float> r, g, b, a;
@@ -27,8 +30,8 @@ struct ColourPlanes {
 /// pixels of its own in the 3x3 round it, or in the 5x5 where those have none. Things found nowhere
 /// near are left out and their share goes to the others; share that belongs to background or is not
 /// named stays empty, so the result's alpha is the covered share. Where the first rank covers all,
-/// or ranks are absent, colours are taken over bit for bit. Coverage below 1/512 and NaN are
-/// ignored. Cost: 9 to 25 reads for each foreign rank of an edge pixel.
+/// or ranks are absent, colours are taken over bit for bit. Coverage below smallestShare and NaN
+/// are ignored. Cost: 9 to 25 reads for each foreign rank of an edge pixel.
 ColourPlanes blendByCoverage(const ColourViews& colour, View<const uint32_t> ownId,
                              std::span<const CoverageRank> ranks);
 

@@ -42,8 +42,8 @@ struct Forest {
 /// connects two pixels anyway, nothing is.
 class RowPair {
  public:
-  RowPair(const SurfaceJoins& joins, const Forest& forest, int width)
-      : joins_(joins), forest_(forest), width_(width) {
+  RowPair(const SurfaceJoins& joins, const Forest& forest, int width, View<uint8_t> kept)
+      : joins_(joins), forest_(forest), width_(width), kept_(kept) {
     for (std::vector<uint8_t>* row : {&upper_, &lower_, &down_, &left_, &right_})
       row->resize(static_cast<size_t>(width) + 1, 0);
   }
@@ -51,8 +51,8 @@ class RowPair {
   /// Sets the parents of a row's pixels to the first of their run, and keeps its joins as the lower
   /// row's.
   void startRow(int y) {
-    std::swap(upper_, lower_);
-    joins_.row(y, {1, 0}, lower_.data() + 1);
+    readRow(y);
+    keep(y, lower_, joinedRight);
     uint32_t* const parent = forest_.parent + static_cast<size_t>(y) * static_cast<size_t>(width_);
     uint32_t first = 0;
     for (int x = 0; x < width_; ++x) {
@@ -74,6 +74,9 @@ class RowPair {
     joins_.row(y, {0, 1}, down_.data() + 1);
     joins_.row(y, {-1, 1}, left_.data() + 1);
     joins_.row(y, {1, 1}, right_.data() + 1);
+    keep(y, down_, joinedDown);
+    keep(y, left_, joinedDownLeft);
+    keep(y, right_, joinedDownRight);
     const uint32_t start = static_cast<uint32_t>(y) * static_cast<uint32_t>(width_);
     const uint32_t below = static_cast<uint32_t>(width_);
     // Index k is pixel k - 1: lower_[k], upper_[k] join it to the pixel after it.
@@ -90,9 +93,17 @@ class RowPair {
   }
 
  private:
+  void keep(int y, const std::vector<uint8_t>& row, JoinedWay way) {
+    if (kept_.empty()) return;
+    uint8_t* const to = kept_.row(y);
+    for (int x = 0; x < width_; ++x)
+      to[x] = static_cast<uint8_t>(to[x] | row[static_cast<size_t>(x) + 1] * way);
+  }
+
   const SurfaceJoins& joins_;
   const Forest& forest_;
   int width_;
+  View<uint8_t> kept_;                        ///< all joins of the picture; may be empty
   std::vector<uint8_t> upper_, lower_;        ///< to the next pixel of the row
   std::vector<uint8_t> down_, left_, right_;  ///< from the upper row to the lower
 };
@@ -119,21 +130,23 @@ void numberRoots(const Forest& forest, View<const uint32_t> ids, uint32_t* numbe
 }  // namespace
 
 Labels labelSurfaces(View<const uint32_t> ids, Vec3View normal, Vec3View position,
-                     const SurfacesParams& params) {
+                     const SurfacesParams& params, Bytes* kept) {
   const int width = ids.width, height = ids.height;
   if (!normal.empty()) requireSize("the normal pass", normal, width, height);
   if (!position.empty()) requireSize("the position pass", position, width, height);
   Labels parents(width, height), labels(width, height);
   const Forest forest{parents.view().data};
   const SurfaceJoins joins(ids, normal, position, params);
+  if (kept) *kept = Bytes(width, height, 0);
+  const View<uint8_t> keptView = kept ? kept->view() : View<uint8_t>();
   parallelRows(height, bandRows, [&](int y0, int y1) {
-    RowPair rows(joins, forest, width);
+    RowPair rows(joins, forest, width, keptView);
     for (int y = y0; y < y1; ++y) {
       rows.startRow(y);
       if (y > y0) rows.uniteDown(y - 1);
     }
   });
-  RowPair seam(joins, forest, width);
+  RowPair seam(joins, forest, width, keptView);
   for (int y = bandRows; y < height; y += bandRows) {
     seam.readRow(y - 1);
     seam.readRow(y);

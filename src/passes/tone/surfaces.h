@@ -25,6 +25,14 @@ inline constexpr ParameterTable surfacesTable{
     "002 section 4.2.2 (the ID of a smoothly connected surface); method.md section 6",
     surfacesParameters};
 
+/// Which of its neighbours a pixel is joined to, as bits of a byte.
+enum JoinedWay : uint8_t {
+  joinedRight = 1,
+  joinedDown = 2,
+  joinedDownLeft = 4,
+  joinedDownRight = 8
+};
+
 /// Labels of smoothly connected surfaces: 8-connected pixels of one id whose normals differ by at
 /// most `angle` and that lie near each other's tangent plane.
 ///
@@ -38,9 +46,10 @@ inline constexpr ParameterTable surfacesTable{
 /// slant (its plane distance is second order), while parallel planes at different heights do not.
 ///
 /// Degenerate: a pixel with NaN or Inf in its normal or position, or a zero normal, is a surface
-/// of its own. Throws InputError when the planes differ in size.
+/// of its own. `joins`, where it is given, becomes a byte a pixel: which neighbours it is joined to
+/// directly (JoinedWay). Throws InputError when the planes differ in size.
 /// Cost: linear in pixels whatever the number of ids; 8 bytes a pixel with the result.
 Labels labelSurfaces(View<const uint32_t> ids, Vec3View normal, Vec3View position,
-                     const SurfacesParams& params);
+                     const SurfacesParams& params, Bytes* joins = nullptr);
 
 }  // namespace kagefude

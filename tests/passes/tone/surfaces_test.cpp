@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "passes/random_image.h"
+#include "passes/tone/surface_joins.h"
 
 namespace kagefude {
 namespace {
@@ -159,6 +160,27 @@ TEST(Surfaces, EqualsAFloodFillForAnyNumberOfThreads) {
       tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
       EXPECT_TRUE(test::equalBits<uint32_t>(labelSurfaces(ids, {}, {}, {}), expected)) << count;
     }
+  }
+}
+
+TEST(Surfaces, KeepsTheJoinsThatItGoesByForAnyNumberOfThreads) {
+  const Scene s(70, 150);
+  const Labels ids = test::randomLabels(70, 150, 2, 2, 5);
+  const SurfaceJoins joins(ids, s.normal, s.position, {});
+  for (const size_t threads : {1, 4}) {
+    tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    Bytes kept;
+    labelSurfaces(ids, s.normal, s.position, {}, &kept);
+    std::vector<uint8_t> row(70);
+    for (int y = 0; y < 150; ++y)
+      for (const auto& [step, way] : {std::pair{NeighbourStep{1, 0}, joinedRight},
+                                      {NeighbourStep{0, 1}, joinedDown},
+                                      {NeighbourStep{-1, 1}, joinedDownLeft},
+                                      {NeighbourStep{1, 1}, joinedDownRight}}) {
+        joins.row(y, step, row.data());
+        for (int x = 0; x < 70; ++x)
+          ASSERT_EQ((kept(x, y) & way) != 0, row[static_cast<size_t>(x)] != 0) << x << " " << y;
+      }
   }
 }
 

@@ -1,0 +1,118 @@
+#include "passes/edges/behind_paint.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "image/parallel.h"
+#include "passes/strip/strip.h"
+
+namespace kagefude {
+namespace {
+
+class Backdrop {
+ public:
+  Backdrop(const ColourViews& picture, std::span<const CoverageRank> ranks)
+      : picture_(picture), ranks_(ranks) {}
+
+  Rgba at(int x, int y) const {
+    return Rgba{picture_.r(x, y), picture_.g(x, y), picture_.b(x, y),
+                picture_.a.empty() ? 1.0f : picture_.a(x, y)};
+  }
+
+  /// Share of the pixel that painted things cover, 0..1.
+  float covered(int x, int y) const {
+    float sum = 0;
+    for (const CoverageRank& rank : ranks_) {
+      const float share = rank.coverage(x, y);
+      if (rank.id(x, y) != 0 && share >= smallestShare) sum += share;
+    }
+    return std::min(sum, 1.0f);
+  }
+
+  /// What is seen beside the things that cover part of the pixel.
+  Rgba beside(int x, int y) const {
+    Rgba mean;
+    if (openMean(x, y, 1, mean) || openMean(x, y, 2, mean)) return mean;
+    return unmixed(x, y);
+  }
+
+ private:
+  bool contains(int x, int y) const { return picture_.r.contains(x, y); }
+
+  /// Mean of the pixels without painted things within `radius`; false when there is none.
+  bool openMean(int x, int y, int radius, Rgba& mean) const {
+    Rgba sum{};
+    int count = 0;
+    for (int qy = y - radius; qy <= y + radius; ++qy)
+      for (int qx = x - radius; qx <= x + radius; ++qx)
+        if (contains(qx, qy) && covered(qx, qy) == 0.0f) {
+          sum += at(qx, qy);
+          ++count;
+        }
+    if (count == 0) return false;
+    mean = sum / static_cast<float>(count);
+    return true;
+  }
+
+  /// Least squares of picture = c thing + (1 - c) behind over the 5x5.
+  Rgba unmixed(int x, int y) const {
+    // Below this the 5x5's coverages differ by less than a tenth, and noise would decide.
+    constexpr float leastSpread = 0.01f;
+    float cc = 0, co = 0, oo = 0;
+    int count = 0;
+    Rgba byCovered{}, byOpen{};
+    Rgba most = Rgba{} + std::numeric_limits<float>::max();
+    for (int qy = y - 2; qy <= y + 2; ++qy)
+      for (int qx = x - 2; qx <= x + 2; ++qx) {
+        if (!contains(qx, qy)) continue;
+        const float c = covered(qx, qy), open = 1.0f - c;
+        const Rgba seen = at(qx, qy);
+        cc += c * c;
+        co += c * open;
+        oo += open * open;
+        byCovered += seen * c;
+        byOpen += seen * open;
+        for (int k = 0; k < 4 && open > 0.0f; ++k) most[k] = std::min(most[k], seen[k] / open);
+        ++count;
+      }
+    // The determinant is n² times the variance of the coverages.
+    const float spread = cc * oo - co * co;
+    if (!(spread > leastSpread * static_cast<float>(count * count))) return at(x, y);
+    const Rgba best = (byOpen * cc - byCovered * co) / spread;
+    Rgba behind{};
+    for (int k = 0; k < 4; ++k) behind[k] = std::max(0.0f, std::min(best[k], most[k]));
+    return behind;
+  }
+
+  const ColourViews& picture_;
+  std::span<const CoverageRank> ranks_;
+};
+
+Rgba behindPaint(const Backdrop& backdrop, float alpha, int x, int y) {
+  const Rgba picture = backdrop.at(x, y);
+  if (!(alpha > 0.0f)) return picture;
+  if (alpha >= 1.0f) return Rgba{};
+  const float covered = backdrop.covered(x, y);
+  if (covered <= 0.0f || covered >= 1.0f) return picture * (1.0f - alpha);
+  const float gaps = std::max(covered - alpha, 0.0f);
+  return backdrop.beside(x, y) * (1.0f - covered) + picture * gaps;
+}
+
+}  // namespace
+
+void layOverPicture(const PaintViews& paint, const ColourViews& picture,
+                    std::span<const CoverageRank> ranks) {
+  const Backdrop backdrop(picture, ranks);
+  parallelRows(paint.r.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < paint.r.width; ++x) {
+        const Rgba behind = behindPaint(backdrop, paint.a(x, y), x, y);
+        paint.r(x, y) += behind[0];
+        paint.g(x, y) += behind[1];
+        paint.b(x, y) += behind[2];
+        paint.a(x, y) += behind[3];
+      }
+  });
+}
+
+}  // namespace kagefude

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+
+#include "passes/edges/coverage_blend.h"
+
+namespace kagefude {
+
+/// Planes of a picture that is being made, in place.
+struct PaintViews {
+  View<float> r, g, b, a;
+};
+
+/// **[ours]** Lays paint over a rendered picture, so that each thing is seen once.
+///
+/// paint: scene-linear with associated alpha, its things met by coverage (blendByCoverage); becomes
+/// the finished picture. picture: the render, associated; its alpha may be empty, which is 1.
+/// ranks: coverage by the things that are painted alone (id 0 for all others), as was blended.
+///
+/// Where one painted thing covers a pixel wholly, or none does, this is "over": paint +
+/// (1 - alpha) x picture. At a silhouette however the render holds the thing as well, by its
+/// coverage c: "over" would show it twice, as a rim of its rendered colour, and make an alpha of
+/// 2c - c². There the share 1 - c shows what lies beside the thing: the mean of the picture's
+/// pixels in the 3x3, else the 5x5, that no painted thing covers. Where there are none, as between
+/// two fingers, the picture is unmixed: of the 5x5 the two colours, of the things and of what is
+/// behind, whose mixture by coverage is nearest (least squares), the latter never more than would
+/// leave the things of any of these pixels less than no light. Where coverage does not tell them
+/// apart, as inside a half-transparent thing, the picture stands for both. What the paint itself
+/// leaves open within a thing, c - alpha, shows the picture as it is, and so does a pixel of a
+/// thing that found no paint.
+///
+/// Cost: a pass over the picture, and 9 to 50 reads at each pixel of an edge.
+void layOverPicture(const PaintViews& paint, const ColourViews& picture,
+                    std::span<const CoverageRank> ranks);
+
+}  // namespace kagefude
