@@ -100,6 +100,9 @@ TEST_F(EdgesAndAlpha, AThingThatCoversPixelsButStandsAtNoneIsNamed) {
   frame.plane("IndexOB.X")(3, 4) = 2.0f;
   EXPECT_EQ(said(), 0) << "one pixel shows it";
   frame.plane("IndexOB.X")(3, 4) = 1.0f;
+  frame.sidecar["objects"][1]["painted"] = false;
+  EXPECT_EQ(said(), 0) << "a holdout";
+  frame.sidecar["objects"][1].erase("painted");
   frame.sidecar["objects"][1].erase("crypto");
   EXPECT_EQ(said(), 0) << "a thing that nothing names";
 }
