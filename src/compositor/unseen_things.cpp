@@ -7,6 +7,8 @@ namespace kagefude {
 namespace {
 
 constexpr double fewestPixels = 16.0;
+constexpr float smallestShare = 1.0f / 512.0f;
+constexpr float fullShare = 1.0f - smallestShare;
 
 /// Names by the Cryptomatte's ids, of what is to be painted.
 std::map<uint32_t, std::string> namesOfCovering(const FramePlan& plan) {
@@ -19,6 +21,17 @@ std::map<uint32_t, std::string> namesOfCovering(const FramePlan& plan) {
   return names;
 }
 
+/// Adds what covers a pixel and is not its own thing; ranks fall.
+void addForeign(const FramePlanes& planes, int x, int y, uint32_t own,
+                std::map<uint32_t, double>& covered) {
+  for (size_t rank = 0; rank < planes.coverageIds.size(); ++rank) {
+    const uint32_t id = planes.coverageIds[rank](x, y);
+    const float share = planes.coverageShares[rank](x, y);
+    if (!(share >= smallestShare)) return;
+    if (id != 0 && id != own) covered[id] += double{share};
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> unseenThings(const FramePlan& plan, const FramePlanes& planes) {
@@ -26,21 +39,19 @@ std::vector<std::string> unseenThings(const FramePlan& plan, const FramePlanes& 
   std::set<uint32_t> seen;
   std::map<uint32_t, double> covered;
   uint32_t object = 0, own = 0;
-  for (int y = 0; y < planes.height; ++y)
+  for (int y = 0; y < planes.height; ++y) {
+    const uint32_t* const objects = planes.objectId.row(y);
+    const uint32_t* const first = planes.coverageIds[0].row(y);
+    const float* const share = planes.coverageShares[0].row(y);
     for (int x = 0; x < planes.width; ++x) {
-      const uint32_t here = planes.objectId(x, y);
-      if (here != object) {
-        object = here;
-        own = here ? plan.cryptomatteIdOf(here) : 0;
+      if (objects[x] != object) {
+        object = objects[x];
+        own = object ? plan.cryptomatteIdOf(object) : 0;
         seen.insert(own);
       }
-      for (size_t rank = 0; rank < planes.coverageIds.size(); ++rank) {
-        const uint32_t id = planes.coverageIds[rank](x, y);
-        const float share = planes.coverageShares[rank](x, y);
-        if (id != 0 && id != own && share > 0.0f) covered[id] += double{share};
-        if (!(share < 1.0f)) break;
-      }
+      if (first[x] != own || !(share[x] >= fullShare)) addForeign(planes, x, y, own, covered);
     }
+  }
   std::set<std::string> names;
   const std::map<uint32_t, std::string> known = namesOfCovering(plan);
   for (const auto& [id, pixels] : covered)

@@ -50,6 +50,7 @@ Json tables() {
     table["scopes"] = Json::array();
     for (const Scope scope : {Scope::look, Scope::light, Scope::style})
       if (actsIn(scope, section)) table["scopes"].push_back(scopeNames[static_cast<size_t>(scope)]);
+    table["wholeLookKey"] = section.wholeLookKey;
     list.push_back(std::move(table));
   }
   return list;

@@ -35,8 +35,8 @@ function control(parameter, turned) {
       field.reportValidity();
     }
   };
-  const write = (value) =>
-    (field.value = type === 'text' ? value : value.map((v) => spell(v)).join(', '));
+  const one = (v) => (typeof v === 'number' ? Number(v.toPrecision(7)) : spell(v));
+  const write = (value) => (field.value = type === 'text' ? value : value.map(one).join(', '));
   return { parts: [field], write };
 }
 
@@ -87,6 +87,7 @@ export class Knobs {
       const group = element('section', {}, element('h2', { title: table.source }, `${table.pass} `,
         element('small', {}, table.summary)));
       for (const parameter of table.parameters) {
+        if (scope !== 'look' && parameter.name === table.wholeLookKey) continue;
         const path = prefix + (own ? '' : `${table.pass}.`) + parameter.name;
         group.append(this.#knob(table.pass, parameter, path));
       }
