@@ -37,6 +37,7 @@ class Options:
     offset: float = None         # None: from the light's size; world units, for a sun a tangent
     truth_samples: int = 0       # 0: no truth layer
     scale: int = 1
+    percentage: int = 100        # of that size, for previews
     depth_size: int = 1024
     casters: bool = False        # also write the triangles of casting objects
 
@@ -123,6 +124,8 @@ def build_parser():
                         help="also trace each light at its real size with so many samples")
     parser.add_argument("--scale", type=_whole_number("scale", 1, 8), default=1, metavar="N",
                         help="render N times the file's resolution, 1 to 8 (default: 1)")
+    parser.add_argument("--percentage", type=_whole_number("percentage", 1, 100), default=100,
+                        metavar="P", help="of that size, for a quick look (default: 100)")
     parser.add_argument("--depth-size", type=_whole_number("depth-size", 16, 16384), default=1024,
                         metavar="PIXELS", help="side of the light-depth maps (default: 1024)")
     parser.add_argument("--casters", action="store_true",

@@ -26,7 +26,7 @@ PREFIX = "kagefude "
 def prepare_beauty(scene, view_layer, options):
     """The artist's scene as it is, but one view layer, no compositing, and Cryptomatte on."""
     notes = []
-    render_whole_frame(scene, options.scale)
+    render_whole_frame(scene, options.scale * options.percentage / 100)
     compat.remove_compositor(scene)
     for other in scene.view_layers:
         other.use = other == view_layer
@@ -54,7 +54,7 @@ def render_whole_frame(scene, scale):
     render.use_compositing = False
     render.use_sequencer = False
     width, height = resolution(scene)
-    render.resolution_x, render.resolution_y = width * scale, height * scale
+    render.resolution_x, render.resolution_y = (max(4, round(side * scale)) for side in (width, height))
     render.resolution_percentage = 100
 
 

@@ -9,13 +9,13 @@ def frame_range(settings, scene):
     return settings.frame_list if settings.frames == 'LIST' else str(scene.frame_current)
 
 
-def export_words(settings, scene, output):
-    """Words after Blender's `--`; `output` is an absolute path pattern."""
+def export_words(settings, scene, output, frames=None):
+    """Words after Blender's `--`; `output` is an absolute path pattern, `frames` wins over the panel's."""
     counts = {'line': settings.line_count, 'trace': settings.trace_count}
     masks = settings.masks
     if masks in counts:
         masks = f"{masks}:{counts[masks]}"
-    words = ["--output", output, f"--frames={frame_range(settings, scene)}", "--masks", masks,
+    words = ["--output", output, f"--frames={frames or frame_range(settings, scene)}", "--masks", masks,
              "--masks-by", settings.masks_by,
              "--scale", str(settings.scale), "--depth-size", str(settings.depth_size)]
     if settings.light:

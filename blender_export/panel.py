@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel in the render properties, its settings, and the add-on's registration."""
 
+import atexit
+
 import bpy
 from bpy.props import (BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty,
                        StringProperty)
 
-from . import compat, operators
+from . import compat, operators, preview
 from .arguments import MOST_LINE_MASKS, MOST_SAMPLES
 
 
@@ -62,6 +64,15 @@ class KagefudeSettings(bpy.types.PropertyGroup):
         description="Render so many times the resolution, for smoother edges after comping")
     depth_size: IntProperty(name="Depth Map Size", default=1024, min=16, max=16384,
                             subtype='PIXEL', description="Side of the light-depth maps")
+    program: StringProperty(
+        name="Program", default="kagefude", subtype='FILE_PATH', options=compat.relative_path_options(),
+        description="The kagefude program: a name that the system finds, or a path")
+    look: StringProperty(
+        name="Look", subtype='FILE_PATH', options=compat.relative_path_options(),
+        description="The look (.toml) that previews are painted with")
+    preview_percentage: IntProperty(
+        name="Size", default=50, min=10, max=100, subtype='PERCENTAGE',
+        description="Share of the render's size that previews have")
 
 
 class KAGEFUDE_PT_export(bpy.types.Panel):
@@ -113,7 +124,29 @@ class KAGEFUDE_PT_export(bpy.types.Panel):
         row.operator("kagefude.cancel", icon='CANCEL')
 
 
-CLASSES = (KagefudeSettings, KAGEFUDE_PT_export, *operators.CLASSES)
+class KAGEFUDE_PT_preview(bpy.types.Panel):
+    bl_idname = "KAGEFUDE_PT_preview"
+    bl_parent_id = "KAGEFUDE_PT_export"
+    bl_label = "Preview"
+    bl_space_type = 'PROPERTIES'
+    bl_region_type = 'WINDOW'
+    bl_context = "render"
+
+    def draw(self, context):
+        settings = context.scene.kagefude
+        layout = self.layout
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        column = layout.column()
+        column.prop(settings, "look")
+        column.prop(settings, "program")
+        column.prop(settings, "preview_percentage")
+        row = layout.row()
+        row.operator("kagefude.preview", icon='IMAGE_DATA')
+        row.operator("kagefude.live", icon='URL')
+
+
+CLASSES = (KagefudeSettings, KAGEFUDE_PT_export, KAGEFUDE_PT_preview, *operators.CLASSES)
 
 
 def register():
@@ -123,9 +156,12 @@ def register():
     # State of a running export: it belongs to the session, not to the file.
     bpy.types.WindowManager.kagefude_percent = IntProperty(default=-1, options={'SKIP_SAVE'})
     bpy.types.WindowManager.kagefude_cancel = BoolProperty(options={'SKIP_SAVE'})
+    atexit.register(preview.Live.close)
 
 
 def unregister():
+    preview.Live.close()
+    atexit.unregister(preview.Live.close)
     del bpy.types.WindowManager.kagefude_cancel
     del bpy.types.WindowManager.kagefude_percent
     del bpy.types.Scene.kagefude
