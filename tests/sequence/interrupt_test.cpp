@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <functional>
 
@@ -25,6 +26,7 @@ class Child {
     if (pipe(ends) != 0) std::abort();
     pid_ = fork();
     if (pid_ == 0) {
+      std::signal(SIGHUP, SIG_DFL);  // whoever started the tests under nohup has it ignored
       Interrupts interrupts([](int code) { _exit(code); }, grace);
       if (::write(ends[1], "r", 1) != 1) _exit(99);
       _exit(body(interrupts));

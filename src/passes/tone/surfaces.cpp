@@ -1,5 +1,6 @@
 #include "passes/tone/surfaces.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "image/parallel.h"
@@ -52,7 +53,7 @@ class RowPair {
   /// row's.
   void startRow(int y) {
     readRow(y);
-    keep(y, lower_, joinedRight);
+    if (y + 1 == kept_.height) std::copy_n(lower_.data() + 1, width_, kept_.row(y));
     uint32_t* const parent = forest_.parent + static_cast<size_t>(y) * static_cast<size_t>(width_);
     uint32_t first = 0;
     for (int x = 0; x < width_; ++x) {
@@ -74,9 +75,7 @@ class RowPair {
     joins_.row(y, {0, 1}, down_.data() + 1);
     joins_.row(y, {-1, 1}, left_.data() + 1);
     joins_.row(y, {1, 1}, right_.data() + 1);
-    keep(y, down_, joinedDown);
-    keep(y, left_, joinedDownLeft);
-    keep(y, right_, joinedDownRight);
+    if (!kept_.empty()) keep(kept_.row(y));
     const uint32_t start = static_cast<uint32_t>(y) * static_cast<uint32_t>(width_);
     const uint32_t below = static_cast<uint32_t>(width_);
     // Index k is pixel k - 1: lower_[k], upper_[k] join it to the pixel after it.
@@ -93,11 +92,14 @@ class RowPair {
   }
 
  private:
-  void keep(int y, const std::vector<uint8_t>& row, JoinedWay way) {
-    if (kept_.empty()) return;
-    uint8_t* const to = kept_.row(y);
+  /// All joins of the upper row; the last row of a picture has only those to the right.
+  void keep(uint8_t* __restrict to) const {
+    static_assert(joinedRight == 1 && joinedDown == 2 && joinedDownLeft == 4 &&
+                  joinedDownRight == 8);
+    const uint8_t *along = upper_.data() + 1, *down = down_.data() + 1;
+    const uint8_t *left = left_.data() + 1, *right = right_.data() + 1;
     for (int x = 0; x < width_; ++x)
-      to[x] = static_cast<uint8_t>(to[x] | row[static_cast<size_t>(x) + 1] * way);
+      to[x] = static_cast<uint8_t>(along[x] + 2 * (down[x] + 2 * (left[x] + 2 * right[x])));
   }
 
   const SurfaceJoins& joins_;
@@ -137,7 +139,7 @@ Labels labelSurfaces(View<const uint32_t> ids, Vec3View normal, Vec3View positio
   Labels parents(width, height), labels(width, height);
   const Forest forest{parents.view().data};
   const SurfaceJoins joins(ids, normal, position, params);
-  if (kept) *kept = Bytes(width, height, 0);
+  if (kept) *kept = Bytes(width, height);
   const View<uint8_t> keptView = kept ? kept->view() : View<uint8_t>();
   parallelRows(height, bandRows, [&](int y0, int y1) {
     RowPair rows(joins, forest, width, keptView);
