@@ -49,6 +49,12 @@ def check_panel(settings):
     assert (options.masks.kind, options.masks.count) == ("line", 5), options
     assert options.casters, options
     assert abs(options.offset - 0.2) < 1e-6, options
+    settings.scale = 2
+    options = exporter("arguments").parse_arguments(
+        exporter("preview").preview_words(settings, bpy.context.scene))
+    assert options.frames == [bpy.context.scene.frame_current], options
+    assert (options.scale, options.percentage) == (1, 50), options
+    settings.scale = 1
 
 
 def check_export(output):

@@ -16,11 +16,12 @@ class Arguments(unittest.TestCase):
     def test_everything_at_once(self):
         options = arguments.parse_arguments(
             "--output a.exr --frames 1-3 --light Key --light Rim --masks line:7 --offset 0.25 "
-            "--truth 512 --scale 2".split())
+            "--truth 512 --scale 2 --percentage 50".split())
         self.assertEqual(options.frames, [1, 2, 3])
         self.assertEqual(options.lights, ["Key", "Rim"])
         self.assertEqual((options.masks.kind, options.masks.count), ("line", 7))
         self.assertEqual((options.offset, options.truth_samples, options.scale), (0.25, 512, 2))
+        self.assertEqual(options.percentage, 50)
 
     def test_discs_of_many_masks(self):
         for count in (5, 9, 17, 33, 65):
@@ -51,7 +52,8 @@ class Arguments(unittest.TestCase):
                       "--output a.exr --masks pair:2", "--output a.exr --offset 0",
                       "--output a.exr --offset -1", "--output a.exr --offset nan",
                       "--output a.exr --offset inf", "--output a.exr --truth 0",
-                      "--output a.exr --scale 9", "--output a.exr --scale 1.5",
+                      "--output a.exr --scale 9", "--output a.exr --percentage 0",
+                      "--output a.exr --percentage 101", "--output a.exr --scale 1.5",
                       "--output a.exr --mask pair", "--output a.exr stray"):
             with self.subTest(words), self.assertRaises(errors.UsageError):
                 arguments.parse_arguments(words.split())
