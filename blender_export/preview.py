@@ -79,7 +79,7 @@ class Comp:
 
 
 class Live:
-    """`kagefude live` on the previewed frame; it opens the browser itself, and ends with Blender."""
+    """`kagefude live` on the previewed frame; it opens the browser itself, and ends when Blender quits."""
     running = None
     shown = None
 

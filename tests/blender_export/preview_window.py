@@ -43,6 +43,10 @@ def shown():
 def step():
     if bpy.context.window_manager.kagefude_percent >= 0:
         return 0.2
+    if os.path.exists(STATE + ".quit"):
+        with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
+            bpy.ops.wm.quit_blender()
+        return None
     name = next(steps, None)
     if name == "preview":
         state["pressed"] = press(bpy.ops.kagefude.preview)
@@ -55,7 +59,7 @@ def step():
         state["process"] = running.pid if running and running.poll() is None else None
     state["step"] = name or "done"
     tell()
-    return 1.0 if name else None
+    return 1.0
 
 
 bpy.context.preferences.view.show_splash = False

@@ -52,7 +52,9 @@ wait_for lived
 page=$(value process)
 import -window root "$pictures/live.png"
 [ "$before" = "$(sha256sum <"$work/shot.blend")" ] || fail "the file on disk was changed"
-kill "$window"
-for _ in $(seq 40); do kill -0 "$page" 2>/dev/null || break; sleep 0.25; done
+touch "$work/state.json.quit"
+for _ in $(seq 80); do kill -0 "$window" 2>/dev/null || break; sleep 0.25; done
+! kill -0 "$window" 2>/dev/null || fail "Blender does not end"
+! kill -0 "$page" 2>/dev/null || { fail "the live page runs on after Blender"; kill "$page"; }
 [ $failed -eq 0 ] && echo "Preview and Live work ($(value size) pixels); look at the pictures in $pictures" ||
   { tail -n 15 "$work/log"; exit 1; }
