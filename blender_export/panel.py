@@ -75,19 +75,25 @@ class KagefudeSettings(bpy.types.PropertyGroup):
         description="Share of the render's size that previews have")
 
 
-class KAGEFUDE_PT_export(bpy.types.Panel):
-    bl_idname = "KAGEFUDE_PT_export"
-    bl_label = "kagefude"
+class _InRenderProperties:
     bl_space_type = 'PROPERTIES'
     bl_region_type = 'WINDOW'
     bl_context = "render"
+
+    def column_layout(self):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        return self.layout
+
+
+class KAGEFUDE_PT_export(_InRenderProperties, bpy.types.Panel):
+    bl_idname = "KAGEFUDE_PT_export"
+    bl_label = "kagefude"
     bl_options = {'DEFAULT_CLOSED'}
 
     def draw(self, context):
         settings = context.scene.kagefude
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = self.column_layout()
         column = layout.column()
         column.prop(settings, "light")
         column.prop(settings, "masks")
@@ -124,19 +130,14 @@ class KAGEFUDE_PT_export(bpy.types.Panel):
         row.operator("kagefude.cancel", icon='CANCEL')
 
 
-class KAGEFUDE_PT_preview(bpy.types.Panel):
+class KAGEFUDE_PT_preview(_InRenderProperties, bpy.types.Panel):
     bl_idname = "KAGEFUDE_PT_preview"
     bl_parent_id = "KAGEFUDE_PT_export"
     bl_label = "Preview"
-    bl_space_type = 'PROPERTIES'
-    bl_region_type = 'WINDOW'
-    bl_context = "render"
 
     def draw(self, context):
         settings = context.scene.kagefude
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = self.column_layout()
         column = layout.column()
         column.prop(settings, "look")
         column.prop(settings, "program")

@@ -67,13 +67,14 @@ class Comp:
         status = self._process.poll()
         if status is None:
             return False
-        if status != 0:
+        if status != 0 and not self.error:
             self._said.seek(0)
             lines = self._said.read().decode("utf-8", "replace").strip().splitlines()
             self.error = lines[-1] if lines else f"kagefude ended with status {status}"
         return True
 
     def cancel(self):
+        self.error = "Preview cancelled"
         self._process.terminate()
         self._process.wait()
 

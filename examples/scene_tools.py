@@ -19,6 +19,16 @@ def output_path():
     return os.path.abspath(rest[0])
 
 
+def chosen_scene(scenes):
+    """(name, .blend) after ``--`` on Blender's command line; the name is one of `scenes`."""
+    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
+    if len(words) != 2 or words[0] not in scenes:
+        print(f"Error: give a scene ({', '.join(scenes)}) and a file to write after --",
+              file=sys.stderr, flush=True)
+        raise SystemExit(2)
+    return words[0], os.path.abspath(words[1])
+
+
 def empty_scene(width, height, samples, name):
     """Clear the factory scene and set up Cycles for a quick beauty render."""
     bpy.ops.wm.read_factory_settings(use_empty=True)

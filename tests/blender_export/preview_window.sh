@@ -1,37 +1,16 @@
 #!/usr/bin/env bash
 # Presses the panel's Preview and Live in a real Blender window, on a virtual screen with software
-# OpenGL: the painted frame must show in an Image Editor, the live page must answer, and end with Blender.
+# OpenGL: the painted frame must show in an Image Editor, the live page must run, and end with Blender.
 #   tests/blender_export/preview_window.sh [PICTURES]   (build/panel)      BLENDER=command
 # By hand, not in CI, as panel_window.sh; it needs the same packages.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 pictures=${1:-build/panel}
 kagefude=$(realpath "${KAGEFUDE:-build/release/kagefude}")
-blender=${BLENDER:-blender}
-work=$(mktemp -d)
-started=()
-finish() {
-  for process in ${started[@]+"${started[@]}"}; do kill "$process" 2>/dev/null || true; done
-  wait 2>/dev/null || true
-  rm -rf "$work"
-}
-trap finish EXIT
-failed=0
-fail() { echo "FAILED: $1" >&2; failed=1; }
-mkdir -p "$pictures"
-
-export DISPLAY=:${SCREEN_NUMBER:-88} LIBGL_ALWAYS_SOFTWARE=1 PYTHONDONTWRITEBYTECODE=1
-Xvfb "$DISPLAY" -screen 0 1100x760x24 +extension GLX >/dev/null 2>&1 &
-started+=($!)
-sleep 2
-$blender -b --factory-startup --python-exit-code 1 -P tests/blender_export/make_check_scene.py -- \
-  "$work/shot.blend" >"$work/log" 2>&1
-before=$(sha256sum <"$work/shot.blend")
+source tests/blender_export/on_screen.sh
 printf 'kagefude = 1\n' >"$work/look.toml"
-$blender --factory-startup -p 0 0 1100 760 "$work/shot.blend" \
-  -P tests/blender_export/preview_window.py -- "$kagefude" "$work/look.toml" "$work/state.json" >"$work/log" 2>&1 &
-window=$!
-started+=($window)
+open_window preview_window.py "$kagefude" "$inside/look.toml" "$inside/state.json"
+window=${started[-1]}
 
 value() { python3 -c "import json, sys; print(json.load(open('$work/state.json')).get(sys.argv[1]))" "$1"; }
 reached() { [ "$(value step 2>/dev/null)" = "$1" ]; }

@@ -1,6 +1,6 @@
 // What stands where nothing is painted, how strokes end there, and the picture's alpha.
 #include <algorithm>
-#include <cstring>
+#include <bit>
 
 #include "compositor/map_frame.h"
 
@@ -19,9 +19,7 @@ class EdgesAndAlpha : public ::testing::Test {
   /// A Cryptomatte in which Thing covers `share` of row 4, and else what the index pass says.
   void addCryptomatte(float share) {
     frame.sidecar["objects"][0]["crypto"] = "3f800001";
-    const uint32_t bits = 0x3f800001;
-    float id;
-    std::memcpy(&id, &bits, sizeof id);
+    const float id = std::bit_cast<float>(0x3f800001);
     Floats& ids = frame.plane("CryptoObject00.r");
     Floats& shares = frame.plane("CryptoObject00.g");
     frame.plane("CryptoObject00.b");
@@ -79,9 +77,7 @@ TEST_F(EdgesAndAlpha, AThingThatCoversPixelsButStandsAtNoneIsNamed) {
   addCryptomatte(1.0f);
   frame.addObject("Veil", 2, {-1, -1, 0}, {1, 1, 0});
   frame.sidecar["objects"][1]["crypto"] = "3f800002";
-  const uint32_t bits = 0x3f800002;
-  float id;
-  std::memcpy(&id, &bits, sizeof id);
+  const float id = std::bit_cast<float>(0x3f800002);
   Floats& ids = frame.plane("CryptoObject00.b");
   Floats& shares = frame.plane("CryptoObject00.a");
   const auto cover = [&](float share, int rows) {
@@ -160,9 +156,7 @@ TEST_F(EdgesAndAlpha, ThingsThatAreNotPaintedTakeNoPaintAtTheirEdges) {
   post["crypto"] = "3f900001";
   post["painted"] = false;
   frame.sidecar["objects"].push_back(post);
-  const uint32_t bits = 0x3f900001;
-  float id;
-  std::memcpy(&id, &bits, sizeof id);
+  const float id = std::bit_cast<float>(0x3f900001);
   for (int y = 0; y <= 4; ++y)
     for (int x = 0; x < MapFrame::side; ++x) {
       const bool meets = y == 4;

@@ -104,14 +104,10 @@ SCENES = {build.__name__: build for build in (orbit, turning, zoom)}
 
 
 def main():
-    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
-    if len(words) != 2 or words[0] not in SCENES:
-        print(f"Error: give a scene ({', '.join(SCENES)}) and a file to write after --",
-              file=sys.stderr, flush=True)
-        raise SystemExit(2)
-    SCENES[words[0]]()
+    name, path = tools.chosen_scene(SCENES)
+    SCENES[name]()
     bpy.context.scene.frame_set(1)
-    tools.save(os.path.abspath(words[1]))
+    tools.save(path)
 
 
 main()

@@ -131,14 +131,10 @@ SCENES = {"machine": machine, "foliage": foliage, "rim_constant": lambda: rim(on
 
 
 def main():
-    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
-    if len(words) != 2 or words[0] not in SCENES:
-        print(f"Error: give a scene ({', '.join(SCENES)}) and a file to write after --",
-              file=sys.stderr, flush=True)
-        raise SystemExit(2)
+    name, path = tools.chosen_scene(SCENES)
     tools.empty_scene(480, 270, 32, "Edges")
-    SCENES[words[0]]()
-    tools.save(os.path.abspath(words[1]))
+    SCENES[name]()
+    tools.save(path)
 
 
 main()

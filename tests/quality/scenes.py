@@ -207,13 +207,9 @@ SCENES = {build.__name__: build for build in (
 
 
 def main():
-    words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
-    if len(words) != 2 or words[0] not in SCENES:
-        print(f"Error: give a scene ({', '.join(SCENES)}) and a file to write after --",
-              file=sys.stderr, flush=True)
-        raise SystemExit(2)
-    SCENES[words[0]]()
-    tools.save(os.path.abspath(words[1]))
+    name, path = tools.chosen_scene(SCENES)
+    SCENES[name]()
+    tools.save(path)
 
 
 main()
