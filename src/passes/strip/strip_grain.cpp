@@ -42,6 +42,40 @@ Deviations deviationsOf(View<const Rgba> texels) {
   return result;
 }
 
+/// Whether a row has two values only, give or take: Pearson's bound on the fourth moment
+/// (kurtosis >= skewness² + 1) is reached by such alone; a normal one exceeds it by 2, an even one
+/// by 0.8.
+bool hasTwoValues(const float* values, int width) {
+  double second = 0, third = 0, fourth = 0;
+  for (int x = 0; x < width; ++x) {
+    const double v = values[x], squared = v * v;
+    second += squared / width;
+    third += squared * v / width;
+    fourth += squared * squared / width;
+  }
+  const double kurtosis = fourth / (second * second);
+  const double skewness = third / (second * std::sqrt(second));
+  return kurtosis - skewness * skewness - 1.0 < 0.3;
+}
+
+/// Replaces a row's values by their ranks, evenly spread about 0 with variance 1; equal ones share
+/// the mean of theirs, so that a row of two values keeps them.
+void rankValues(float* values, int width) {
+  std::vector<int> order(static_cast<size_t>(width));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return values[a] < values[b]; });
+  std::vector<float> ranks(static_cast<size_t>(width));
+  double squares = 0;
+  for (size_t i = 0, end = 0; i < order.size(); i = end) {
+    while (end < order.size() && values[order[end]] == values[order[i]]) ++end;
+    const float rank = static_cast<float>(i + end) / static_cast<float>(width) - 1.0f;
+    for (size_t k = i; k < end; ++k) ranks[static_cast<size_t>(order[k])] = rank;
+    squares += static_cast<double>(end - i) * rank * rank / width;
+  }
+  const float scale = squares > 0 ? static_cast<float>(1.0 / std::sqrt(squares)) : 0.0f;
+  for (int x = 0; x < width; ++x) values[x] = ranks[static_cast<size_t>(x)] * scale;
+}
+
 /// The grain of the rows that have strokes, each of variance 1.
 Floats grainOf(const Deviations& deviations) {
   const float strongest = *std::max_element(deviations.rms.begin(), deviations.rms.end());
@@ -55,6 +89,7 @@ Floats grainOf(const Deviations& deviations) {
     const int from = rows[static_cast<size_t>(y)];
     const float scale = 1.0f / deviations.rms[static_cast<size_t>(from)];
     for (int x = 0; x < grain.width(); ++x) grain(x, y) = deviations.values(x, from) * scale;
+    if (hasTwoValues(grain.row(y), grain.width())) rankValues(grain.row(y), grain.width());
   }
   return grain;
 }

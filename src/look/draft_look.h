@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "look/look_presets.h"
+
+namespace kagefude {
+
+/// A thing that a frame shows, for which a look gets a style: a material of an object.
+struct DraftThing {
+  std::string object, material;  ///< "" where nothing names it
+  uint32_t index = 0;            ///< object index where only that is known, else 0
+  size_t pixels = 0;
+  V3f colour{0, 0, 0};      ///< its own, linear Rec. 709
+  bool fromBeauty = false;  ///< taken from the picture, for want of an albedo
+  float pixelWidth = 0;     ///< world units that a pixel shows of it; 0: unknown
+};
+
+struct DraftFrame {
+  std::string name;           ///< the frame's file, for the comment
+  int width = 0, height = 0;  ///< pixels
+  std::vector<DraftThing> things;
+};
+
+/// A strip to be painted into the look's folder of strips.
+struct DraftStrip {
+  std::string file;  ///< name in that folder
+  StripPaintParams params;
+};
+
+struct DraftLook {
+  std::string text;
+  std::vector<DraftStrip> strips;
+};
+
+/// **[ours]** A look for what a frame shows, painted as a preset paints, with comments that say
+/// why. One style for each material, or object where materials have no names; a material whose
+/// objects differ in colour (by more than 0.06 in Oklab) has one for each. Things beyond the 24
+/// largest take the strip of a larger one that differs by less than 0.06, and beyond 64 strips the
+/// nearest, and share its style. A last style catches what the frame does not show. Strokes are
+/// sized by the pixels that a thing fills. `stripFolder` is the folder of strips as the look names
+/// it. The same text for the same frame.
+DraftLook draftLook(const LookPreset& preset, const DraftFrame& frame,
+                    const std::string& stripFolder);
+
+}  // namespace kagefude
