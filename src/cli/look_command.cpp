@@ -96,7 +96,9 @@ void paintStrips(const std::vector<DraftStrip>& strips, const fs::path& folder) 
     const auto i = static_cast<size_t>(first);
     try {
       const PaintedStrip strip = paintStrip(strips[i].params);
-      writePng(folder / strips[i].file, strip.r, strip.g, strip.b, {}, 8);
+      // Pen lines keep a trace finer than a byte, see hatchStrip.
+      const int bits = strips[i].params.hatch > 0 ? 16 : 8;
+      writePng(folder / strips[i].file, strip.r, strip.g, strip.b, {}, bits);
     } catch (...) {
       errors[i] = std::current_exception();
     }

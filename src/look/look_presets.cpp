@@ -20,20 +20,20 @@ constexpr TonePoint oilRamp[] = {{0.00f, 0.06f, 0.26f, 0.80f},
                                  {0.86f, 0.12f, 0.96f, 1.05f},
                                  {1.00f, 0.34f, 0.70f, 0.70f}};
 void paintOil(StripPaintParams& p) {
-  p.strokeWidth = 44;
-  p.strokeLength = 230;
-  p.spacing = 0.4f;
+  p.strokeWidth = 64;
+  p.strokeLength = 280;
+  p.spacing = 0.38f;
   p.opacity = 0.95f;
-  p.hardness = 0.8f;
-  p.wobble = 0.3f;
-  p.bristle = 0.75f;
-  p.jitter = 0.11f;
-  p.under = -0.1f;
-  p.relief = 0.8f;
+  p.hardness = 0.85f;
+  p.wobble = 0.35f;
+  p.bristle = 0.5f;
+  p.jitter = 0.12f;
+  p.under = -0.08f;
+  p.relief = 0.5f;
   p.hueShift = 28;
 }
 constexpr PresetKey oilKeys[] = {
-    {"brush", "contrast", "1.5", 0, "thick paint: strokes stand out"},
+    {"brush", "contrast", "1.15", 0, "thick paint: strokes stand out"},
     {"smooth", "h", "", 0.006f, "edges of shadows are as soft as the brush"},
 };
 
@@ -61,8 +61,8 @@ constexpr PresetKey gouacheKeys[] = {
 };
 
 constexpr TonePoint celRamp[] = {{0.00f, 0.07f, 0.60f, 1.05f},  {0.36f, 0.07f, 0.60f, 1.05f},
-                                 {0.375f, 0.03f, 0.98f, 1.05f}, {0.93f, 0.03f, 0.98f, 1.05f},
-                                 {0.945f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
+                                 {0.366f, 0.03f, 0.98f, 1.05f}, {0.93f, 0.03f, 0.98f, 1.05f},
+                                 {0.936f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
 void paintCel(StripPaintParams& p) {
   p.strokeWidth = 2;
   p.strokeLength = 200;
@@ -79,11 +79,11 @@ constexpr PresetKey celKeys[] = {
     {"outline", "crease_angle", "42", 0, "lines along edges of the form too"},
 };
 
-constexpr TonePoint inkRamp[] = {{0.00f, 0.00f, 0.00f, 0}, {0.30f, 0.02f, 0.58f, 0},
-                                 {0.62f, 0.48f, 0.44f, 0}, {0.85f, 0.84f, 0.13f, 0},
-                                 {0.95f, 0.97f, 0.00f, 0}, {1.00f, 0.97f, 0.00f, 0}};
+constexpr TonePoint inkRamp[] = {{0.00f, 0.02f, 0.58f, 0}, {0.30f, 0.12f, 0.68f, 0},
+                                 {0.62f, 0.46f, 0.48f, 0}, {0.85f, 0.86f, 0.11f, 0},
+                                 {0.93f, 0.97f, 0.00f, 0}, {1.00f, 0.97f, 0.00f, 0}};
 void paintInk(StripPaintParams& p) {
-  p.strokeWidth = 16;
+  p.strokeWidth = 14;
   p.strokeLength = 160;
   p.wobble = 0.5f;
   p.pressure = 0.5f;
@@ -122,26 +122,26 @@ constexpr PresetKey pastelKeys[] = {
     {"shade", "wrap", "0.15", 0, "light reaches a little round the form"},
 };
 
-constexpr TonePoint watercolourRamp[] = {{0.00f, 0.30f, 0.42f, 1.10f},
-                                         {0.30f, 0.36f, 0.48f, 1.10f},
-                                         {0.58f, 0.46f, 0.48f, 0.95f},
-                                         {0.84f, 0.70f, 0.27f, 0.55f},
-                                         {1.00f, 0.93f, 0.05f, 0.15f}};
+constexpr TonePoint watercolourRamp[] = {{0.00f, 0.30f, 0.42f, 1.15f},
+                                         {0.30f, 0.38f, 0.46f, 1.15f},
+                                         {0.55f, 0.50f, 0.44f, 1.00f},
+                                         {0.80f, 0.74f, 0.23f, 0.60f},
+                                         {1.00f, 0.95f, 0.04f, 0.12f}};
 void paintWatercolour(StripPaintParams& p) {
-  p.strokeWidth = 110;
-  p.strokeLength = 240;
+  p.strokeWidth = 150;
+  p.strokeLength = 260;
   p.spacing = 0.3f;
-  p.opacity = 0.45f;
-  p.hardness = 0.92f;
+  p.opacity = 0.4f;
+  p.hardness = 0.75f;
   p.pressure = 0.4f;
-  p.wobble = 0.5f;
-  p.bristle = 0.05f;
-  p.jitter = 0.09f;
-  p.under = 0.12f;
-  p.tooth = 0.25f;
-  p.toothSize = 5;
-  p.pool = 0.9f;
-  p.hueShift = 18;
+  p.wobble = 0.6f;
+  p.bristle = 0;
+  p.jitter = 0.13f;
+  p.under = 0.1f;
+  p.tooth = 0.55f;
+  p.toothSize = 26;
+  p.pool = 0.3f;
+  p.hueShift = 26;
 }
 constexpr PresetKey watercolourKeys[] = {
     {"brush", "contrast", "1.2", 0, "washes that dried over each other"},
@@ -190,7 +190,7 @@ StripPaintParams presetStrip(const LookPreset& preset, const V3f& colour, int se
   if (preset.inColour) return strip;
   for (size_t i = 0; i + 3 < strip.stops.size(); i += 4) {
     const V3f grey = oklabOfSrgb({strip.stops[i + 1], strip.stops[i + 2], strip.stops[i + 3]});
-    const V3f tinted = srgbOfOklab(grey + paperTint * grey.x + V3f(0.10f, 0, 0) * (1.0f - grey.x));
+    const V3f tinted = srgbOfOklab(grey + paperTint * grey.x);
     for (int c = 0; c < 3; ++c) strip.stops[i + 1 + static_cast<size_t>(c)] = tinted[c];
   }
   return strip;

@@ -21,10 +21,10 @@ struct FromPictureParams {
 /// picture's lightness is finer than a twelfth of the patch, made even in strength (local root mean
 /// square), turned so that they run along the row (the smaller of the mean squared differences
 /// along and across), laid once over the strip with a quarter of its width blended into the
-/// beginning so that the ends join. Each row's strokes have mean 0, so rows rise steadily, and about
-/// the strength that they have in the picture at that tone; their colours are the tones' own.
-/// Non-finite texels count as 0. Throws InputError below 16 x 16 pixels and when lightness differs by
-/// less than 0.05. Cost: a few passes over patch and strip.
+/// beginning so that the ends join. Each row's strokes have mean 0, so rows rise steadily, and
+/// about the strength that they have in the picture at that tone; their colours are the tones' own.
+/// Non-finite texels count as 0. Throws InputError below 16 x 16 pixels and when lightness differs
+/// by less than 0.05. Cost: a few passes over patch and strip.
 PaintedStrip stripFromPicture(View<const float> r, View<const float> g, View<const float> b,
                               const FromPictureParams& params);
 

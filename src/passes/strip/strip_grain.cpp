@@ -55,7 +55,7 @@ bool hasTwoValues(const float* values, int width) {
   }
   const double kurtosis = fourth / (second * second);
   const double skewness = third / (second * std::sqrt(second));
-  return kurtosis - skewness * skewness - 1.0 < 0.3;
+  return kurtosis - skewness * skewness - 1.0 < 0.5;
 }
 
 /// Replaces a row's values by their ranks, evenly spread about 0 with variance 1; equal ones share

@@ -63,12 +63,12 @@ float hatchShare(float along, float across, int sets) {
 
 PaintedStrip hatchStrip(const StripPaintParams& params) {
   const StripGradient gradient(params);
-  const V3f ink = gradient.at(0.0f), paper = gradient.at(1.0f);
+  const V3f ink(params.ink[0], params.ink[1], params.ink[2]), paper = gradient.at(1.0f);
   const float range = std::max(brightness(paper) - brightness(ink), 1e-6f);
   const uint32_t seed = static_cast<uint32_t>(params.seed);
   const Lines along(params, params.width, params.height, seed);
   const Lines across(params, params.height, params.width, seed ^ 0x9e3779b9u);
-  const float soft = std::max(3.0f / params.strokeWidth, 0.02f);
+  const float soft = std::max(1.5f / params.strokeWidth, 0.02f);
   PaintedStrip strip{Floats(params.width, params.height), Floats(params.width, params.height),
                      Floats(params.width, params.height)};
   parallelRows(params.height, [&](int first, int end) {

@@ -5,7 +5,7 @@
 namespace kagefude {
 
 /// **[ours]** A strip of pen lines instead of strokes: the gradient's brightness becomes lines of
-/// its darkest colour on its brightest, thicker the darker the tone, the second set across the
+/// `ink` on its last colour, thicker the darker the tone, the second set across the
 /// first from 0.45 of ink on. One field of numbers h says at which share of ink each texel is
 /// covered, {h < c} covering c of the strip, so that lines stay where they are as the tone changes;
 /// strokes stray by `wobble` and thin out by `pressure` along `stroke_length`. Ink and paper keep a

@@ -26,6 +26,7 @@ struct StripPaintParams {
   float toothSize = 3;
   float pool = 0;
   int hatch = 0;
+  std::vector<float> ink{0.09f, 0.08f, 0.10f};
   float hueShift = 0;
   int bands = 0;
   int seed = 1;
@@ -70,10 +71,11 @@ inline constexpr Parameter stripParameters[] = {
                                     "How much darker a wash dries along the rims of its strokes."),
     number<&StripPaintParams::hatch>(
         "hatch", 0, 2, "",
-        "Pen lines in place of strokes, stroke_width apart, thicker "
-        "the darker: 1 along the row, 2 crossed in the dark. The first "
-        "stop is the ink, the last one the paper, those between say "
-        "how much ink."),
+        "Pen lines in place of strokes, stroke_width apart, thicker the darker: 1 along the row, 2 "
+        "crossed in the dark. The last stop is the paper, the others say how much ink."),
+    numbers<&StripPaintParams::ink>("ink", 3, 0, 1, "",
+                                    "Colour of pen lines: red, green, blue in display-encoded "
+                                    "sRGB."),
     number<&StripPaintParams::hueShift>(
         "hue_shift", -90, 90, "degrees",
         "How far colours lean to yellow in the light and to blue in "

@@ -20,9 +20,9 @@ struct TonePoint {
 std::vector<float> tonesOf(const V3f& linearColour, std::span<const TonePoint> ramp);
 
 /// **[ours]** The stops of a strip whose tones are a palette's colours (display-encoded sRGB): by
-/// rising lightness (Oklab), each with the same share of the strip, mixed in Oklab in between (eight
-/// stops from one to the next). Colours of one lightness keep their order. Throws InputError when all
-/// are within 0.05 of one lightness; a single colour, too.
+/// rising lightness (Oklab), each with the same share of the strip, mixed in Oklab in between
+/// (eight stops from one to the next). Colours of one lightness keep their order. Throws InputError
+/// when all are within 0.05 of one lightness; a single colour, too.
 std::vector<float> stopsOfPalette(std::vector<V3f> encoded);
 
 }  // namespace kagefude
