@@ -126,8 +126,9 @@ DraftFrame draftFrame(const NewOptions& options, const Look& look, const Colour&
   const FramePlan plan =
       planWithMaterials(look, options.frame, frameNumberOf(options.frame).value_or(1));
   const FramePlanes planes = readFramePlanes(plan);
+  const Floats tone = plainTone(look, plan, planes);
   DraftFrame frame{fs::path(options.frame).filename().string(), planes.width, planes.height,
-                   seenThings(plan, planes)};
+                   brightTone(tone, planes.objectId), seenThings(plan, planes, tone)};
   std::vector<std::string> fromBeauty;
   for (DraftThing& thing : frame.things) {
     thing.colour = toStripLinear(colour, thing.colour);

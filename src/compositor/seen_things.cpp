@@ -5,6 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "compositor/frame_tone.h"
+#include "passes/tone/surfaces.h"
+
 namespace kagefude {
 namespace {
 
@@ -38,6 +41,14 @@ float median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// The value that a twentieth exceed; 1 of none.
+float brightShare(std::vector<float>& values) {
+  if (values.empty()) return 1;
+  const auto place = values.begin() + static_cast<ptrdiff_t>(values.size() * 19 / 20);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
 }
 
 /// Every n-th of many pixels: a median needs no more.
@@ -88,6 +99,21 @@ void takeColour(const FramePlanes& planes, const std::vector<uint32_t>& places, 
   thing.colour = medianColour(planes.beauty, brighterHalf(planes.beauty, places));
 }
 
+/// Pixels with another object, or nothing, beside them.
+size_t rimPixels(const FramePlanes& planes, const std::vector<uint32_t>& places) {
+  const int width = planes.width;
+  size_t count = 0;
+  for (const uint32_t place : places) {
+    const int x = static_cast<int>(place) % width, y = static_cast<int>(place) / width;
+    const uint32_t own = planes.objectId(x, y);
+    count += (x > 0 && planes.objectId(x - 1, y) != own) ||
+             (x + 1 < width && planes.objectId(x + 1, y) != own) ||
+             (y > 0 && planes.objectId(x, y - 1) != own) ||
+             (y + 1 < planes.height && planes.objectId(x, y + 1) != own);
+  }
+  return count;
+}
+
 float pixelWidth(const FramePlanes& planes, const std::vector<uint32_t>& places) {
   const Vec3View position = planes.position;
   const int width = planes.width;
@@ -120,7 +146,23 @@ FramePlan planWithMaterials(Look look, const std::filesystem::path& path, int fr
   return planFrame(look, path, frame);
 }
 
-std::vector<DraftThing> seenThings(const FramePlan& plan, const FramePlanes& planes) {
+Floats plainTone(const Look& look, const FramePlan& plan, const FramePlanes& planes) {
+  const Labels surfaces =
+      labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces);
+  FrameResult unused;
+  return frameTone(look, plan, planes, surfaces, unused, nullptr, nullptr);
+}
+
+float brightTone(View<const float> tone, View<const uint32_t> objects) {
+  std::vector<float> values;
+  const size_t step = std::max<size_t>(1, tone.pixels() / mostSamples);
+  for (size_t i = 0; i < tone.pixels(); i += step)
+    if (objects.data[i] != 0) values.push_back(tone.data[i]);
+  return brightShare(values);
+}
+
+std::vector<DraftThing> seenThings(const FramePlan& plan, const FramePlanes& planes,
+                                   View<const float> tone) {
   std::vector<DraftThing> things;
   for (const auto& [key, pixels] : pixelsOfThings(planes)) {
     const auto [object, material] = key;
@@ -130,9 +172,13 @@ std::vector<DraftThing> seenThings(const FramePlan& plan, const FramePlanes& pla
       thing.material = name->second;
     if (plan.idSource != IdSource::cryptomatte && object <= 1u << 24) thing.index = object;
     thing.pixels = pixels.places.size();
+    thing.rimPixels = rimPixels(planes, pixels.places);
     const std::vector<uint32_t> samples = samplesOf(pixels);
     takeColour(planes, samples, thing);
     thing.pixelWidth = pixelWidth(planes, samples);
+    std::vector<float> tones;
+    for (const uint32_t place : samples) tones.push_back(tone.data[place]);
+    thing.brightTone = brightShare(tones);
     things.push_back(std::move(thing));
   }
   std::stable_sort(things.begin(), things.end(),

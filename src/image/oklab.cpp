@@ -7,7 +7,7 @@ namespace {
 
 // Directions of orange-yellow sunlight and of the sky's blue in the a, b plane, turns.
 constexpr float warmHue = 80.0f / 360.0f, coolHue = 270.0f / 360.0f;
-constexpr float tintPerDegree = 0.001f;
+constexpr float tintPerDegree = 0.0007f;
 
 bool canBeShown(const V3f& linear) {
   constexpr float slack = 1e-4f;

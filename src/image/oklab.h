@@ -46,7 +46,7 @@ V3f srgbOfOklab(const V3f& lab);
 V3f oklabOfSrgb(const V3f& encoded);
 
 /// [ours] The colour with its hue turned by at most `degrees` towards warm (yellow, above 0) or
-/// cool (blue, below 0), never beyond it; greys take a tint of 0.001 chroma a degree.
+/// cool (blue, below 0), never beyond it; greys take a tint of 0.0007 chroma a degree.
 V3f leanTowardsWarm(const V3f& lab, float degrees);
 
 }  // namespace kagefude

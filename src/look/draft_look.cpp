@@ -34,6 +34,12 @@ bool largerFirst(const DraftThing& a, const DraftThing& b) {
   return a.object != b.object ? a.object < b.object : a.material < b.material;
 }
 
+void addPixels(const DraftThing& more, DraftThing& thing) {
+  thing.pixels += more.pixels;
+  thing.rimPixels += more.rimPixels;
+  thing.brightTone = std::max(thing.brightTone, more.brightTone);
+}
+
 Group groupOf(const DraftThing& thing, bool byMaterial, bool byObject) {
   Group group{{}, {}, 0, thing};
   if (byMaterial) group.materials = {thing.material};
@@ -53,7 +59,7 @@ void addMaterial(std::vector<DraftThing> things, std::vector<Group>& groups) {
     return;
   }
   Group group = groupOf(things.front(), true, false);
-  for (size_t i = 1; i < things.size(); ++i) group.thing.pixels += things[i].pixels;
+  for (size_t i = 1; i < things.size(); ++i) addPixels(things[i], group.thing);
   groups.push_back(std::move(group));
 }
 
@@ -70,7 +76,10 @@ std::vector<Group> groupThings(const std::vector<DraftThing>& things) {
       groups.push_back(groupOf(thing, false, false));
   }
   for (const auto& [name, own] : materials) addMaterial(own, groups);
-  for (const auto& [name, own] : objects) groups.push_back(groupOf(own.front(), false, true));
+  for (auto& [name, own] : objects) {
+    for (size_t i = 1; i < own.size(); ++i) addPixels(own[i], own.front());
+    groups.push_back(groupOf(own.front(), false, true));
+  }
   std::sort(groups.begin(), groups.end(),
             [](const Group& a, const Group& b) { return largerFirst(a.thing, b.thing); });
   return groups;
@@ -162,6 +171,24 @@ std::string hexOf(const V3f& linear) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(linear.x), byte(linear.y), byte(linear.z));
 }
 
+/// The tone that is brightest on a large thing which is lit less than the rest; 0 for others.
+float ownWhite(const DraftFrame& frame, const DraftThing& thing) {
+  const double all = static_cast<double>(frame.width) * frame.height;
+  if (static_cast<double>(thing.pixels) < 0.1 * all) return 0;
+  return thing.brightTone < 0.75f * frame.brightTone ? std::max(thing.brightTone, 0.2f) : 0;
+}
+
+/// Lines on both sides of something thin would be all that is left of it.
+bool takesOutline(const LookPreset& preset, const DraftFrame& frame, const DraftThing& thing) {
+  if (thing.rimPixels == 0) return true;
+  float line = 1.5f;
+  for (const PresetKey& key : preset.keys)
+    if (key.section == "outline" && key.key == "width")
+      line = key.ofHeight * static_cast<float>(frame.height);
+  const float width = 2.0f * static_cast<float>(thing.pixels) / static_cast<float>(thing.rimPixels);
+  return width >= 3.0f * line;
+}
+
 std::string styleText(const LookPreset& preset, const DraftFrame& frame, const Style& style) {
   const Group& group = *style.group;
   const double share = 100.0 * static_cast<double>(group.thing.pixels) /
@@ -177,7 +204,9 @@ std::string styleText(const LookPreset& preset, const DraftFrame& frame, const S
   if (style.mappingDistance > 0)
     text += keyLine("brush.mapping_distance", fmt::format("{:.4g}", style.mappingDistance),
                     "world units; twice as much, strokes twice as large");
-  if (preset.outlineLightness >= 0) {
+  if (const float white = ownWhite(frame, group.thing); white > 0)
+    text += keyLine("tone.white", fmt::format("{:.2f}", white), "it is lit less than the rest");
+  if (preset.outlineLightness >= 0 && takesOutline(preset, frame, group.thing)) {
     const V3f line = presetOutline(preset, group.thing.colour);
     text += fmt::format("outline_colour = [{:.3f}, {:.3f}, {:.3f}]\n", line.x, line.y, line.z);
   }
@@ -192,6 +221,11 @@ std::string headText(const LookPreset& preset, const DraftFrame& frame) {
              "them.\n"
              "kagefude = 1\n",
              preset.name, preset.sentence, printable(frame.name), frame.width, frame.height) +
+         (frame.brightTone < 0.99f
+              ? "\n[tone]\n" + keyLine("white",
+                                       fmt::format("{:.2f}", std::max(frame.brightTone, 0.5f)),
+                                       "the frame's brightest tone is the strips' brightest row")
+              : "") +
          sectionsText(preset, frame.height);
 }
 
@@ -225,7 +259,7 @@ DraftLook draftLook(const LookPreset& preset, const DraftFrame& frame,
     shared->objects.insert(shared->objects.end(), group.objects.begin(), group.objects.end());
     shared->materials.insert(shared->materials.end(), group.materials.begin(),
                              group.materials.end());
-    shared->thing.pixels += group.thing.pixels;
+    addPixels(group.thing, shared->thing);
   }
   DraftLook draft;
   draft.text = headText(preset, frame);

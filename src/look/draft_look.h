@@ -13,14 +13,17 @@ struct DraftThing {
   std::string object, material;  ///< "" where nothing names it
   uint32_t index = 0;            ///< object index where only that is known, else 0
   size_t pixels = 0;
-  V3f colour{0, 0, 0};      ///< its own, linear Rec. 709
+  size_t rimPixels = 0;  ///< of them those beside another thing: 2 pixels / rimPixels is its width
+  V3f colour{0, 0, 0};   ///< its own, linear Rec. 709
   bool fromBeauty = false;  ///< taken from the picture, for want of an albedo
+  float brightTone = 1;     ///< tone that a twentieth of its pixels exceed, 0..1
   float pixelWidth = 0;     ///< world units that a pixel shows of it; 0: unknown
 };
 
 struct DraftFrame {
   std::string name;           ///< the frame's file, for the comment
   int width = 0, height = 0;  ///< pixels
+  float brightTone = 1;       ///< of all things
   std::vector<DraftThing> things;
 };
 

@@ -60,9 +60,9 @@ constexpr PresetKey gouacheKeys[] = {
     {"smooth", "h", "", 0.008f, "steps are rounded, as a full brush leaves them"},
 };
 
-constexpr TonePoint celRamp[] = {{0.00f, 0.07f, 0.60f, 1.05f},  {0.36f, 0.07f, 0.60f, 1.05f},
-                                 {0.366f, 0.03f, 0.98f, 1.05f}, {0.93f, 0.03f, 0.98f, 1.05f},
-                                 {0.936f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
+constexpr TonePoint celRamp[] = {{0.00f, 0.07f, 0.60f, 1.05f},  {0.30f, 0.07f, 0.60f, 1.05f},
+                                 {0.302f, 0.03f, 0.98f, 1.05f}, {0.93f, 0.03f, 0.98f, 1.05f},
+                                 {0.932f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
 void paintCel(StripPaintParams& p) {
   p.strokeWidth = 2;
   p.strokeLength = 200;
@@ -102,19 +102,19 @@ constexpr TonePoint pastelRamp[] = {{0.00f, 0.26f, 0.36f, 1.00f},
                                     {0.88f, 0.46f, 0.52f, 0.75f},
                                     {1.00f, 0.66f, 0.33f, 0.50f}};
 void paintPastel(StripPaintParams& p) {
-  p.strokeWidth = 34;
-  p.strokeLength = 120;
-  p.spacing = 0.4f;
-  p.opacity = 0.75f;
-  p.hardness = 0.5f;
+  p.strokeWidth = 30;
+  p.strokeLength = 150;
+  p.spacing = 0.45f;
+  p.opacity = 0.8f;
+  p.hardness = 0.6f;
   p.pressure = 0.7f;
   p.wobble = 0.35f;
-  p.bristle = 0.35f;
-  p.jitter = 0.09f;
+  p.bristle = 0.5f;
+  p.jitter = 0.13f;
   p.under = 0.14f;
-  p.tooth = 0.9f;
-  p.toothSize = 4;
-  p.hueShift = 34;
+  p.tooth = 0.8f;
+  p.toothSize = 3;
+  p.hueShift = 32;
 }
 constexpr PresetKey pastelKeys[] = {
     {"brush", "contrast", "1.3", 0, "the grain of the paper shows"},

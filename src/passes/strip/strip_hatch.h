@@ -14,8 +14,8 @@ namespace kagefude {
 PaintedStrip hatchStrip(const StripPaintParams& params);
 
 /// The share of ink from which a texel is covered, from how far it lies from the middle of the
-/// nearest line along the row and across it, 0 on the line to 1 between two; `across` is left out
-/// with one set of lines. Both uniform and independent give a uniform share.
-float hatchShare(float along, float across, int sets);
+/// nearest line of either set, 0 on the line to 1 between two; `slanting` is left out with one set.
+/// Both uniform and independent give a uniform share.
+float hatchShare(float straight, float slanting, int sets);
 
 }  // namespace kagefude
