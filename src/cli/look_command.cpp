@@ -121,14 +121,27 @@ void paintPreview(const NewOptions& options, const Colour& colour, Console& cons
       fmt::format("{}: {} x {}", options.preview, result.alpha.width(), result.alpha.height()));
 }
 
+/// How many times larger than the shot a frame is: as the caller says, else its JSON, where that
+/// divides its sides.
+int scaleOf(const Look& look, const FramePlan& plan) {
+  if (look.output.scale > 1 || !plan.sidecar) return look.output.scale;
+  const int scale = plan.sidecar->scale;
+  const Window& window = plan.image.displayWindow;
+  return scale >= 1 && window.width % scale == 0 && window.height % scale == 0 ? scale : 1;
+}
+
 DraftFrame draftFrame(const NewOptions& options, const Look& look, const Colour& colour,
                       Console& console) {
   const FramePlan plan =
       planWithMaterials(look, options.frame, frameNumberOf(options.frame).value_or(1));
   const FramePlanes planes = readFramePlanes(plan);
   const Floats tone = plainTone(look, plan, planes);
-  DraftFrame frame{fs::path(options.frame).filename().string(), planes.width, planes.height,
-                   brightTone(tone, planes.objectId), seenThings(plan, planes, tone)};
+  DraftFrame frame{fs::path(options.frame).filename().string(),
+                   planes.width,
+                   planes.height,
+                   scaleOf(look, plan),
+                   brightTone(tone, planes.objectId),
+                   seenThings(plan, planes, tone)};
   std::vector<std::string> fromBeauty;
   for (DraftThing& thing : frame.things) {
     thing.colour = toStripLinear(colour, thing.colour);

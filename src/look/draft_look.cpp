@@ -11,11 +11,13 @@
 #include "base/printable.h"
 #include "image/oklab.h"
 #include "look/toml_text.h"
+#include "passes/edges/outline.h"
 
 namespace kagefude {
 namespace {
 
 constexpr float sameColour = 0.06f;  ///< Oklab
+constexpr float headroom = 1.15f;  ///< of the brightest row above what is brightest but for lights
 constexpr size_t largeThings = 24, mostStrips = 64;
 
 float difference(const V3f& linearA, const V3f& linearB) {
@@ -126,13 +128,27 @@ std::string freeName(const std::string& stem, std::set<std::string>& taken) {
   return name + ".png";
 }
 
-/// World units from the axis at which the strip goes round once: so that its width covers the
-/// preset's share of the picture, less on smaller things.
-float mappingDistance(const LookPreset& preset, const DraftFrame& frame, const DraftThing& thing) {
+/// Width of a thing's strip on the screen, pixels: the preset's share of the picture's height, less
+/// on smaller things.
+float stripOnScreen(const LookPreset& preset, const DraftFrame& frame, const DraftThing& thing) {
   const float height = static_cast<float>(frame.height);
   const float side = std::sqrt(static_cast<float>(thing.pixels)) / (0.5f * height);
-  const float size = powerOf(std::clamp(side, 0.02f, 1.2f), preset.followsSize);
-  return preset.strokeSize * height * size * thing.pixelWidth / (2.0f * pi);
+  return preset.strokeSize * height * powerOf(std::clamp(side, 0.02f, 1.2f), preset.followsSize);
+}
+
+/// World units from the axis at which the strip goes round once.
+float mappingDistance(const LookPreset& preset, const DraftFrame& frame, const DraftThing& thing) {
+  return stripOnScreen(preset, frame, thing) * thing.pixelWidth / (2.0f * pi);
+}
+
+/// The same strokes in fewer pixels.
+StripPaintParams halved(StripPaintParams strip) {
+  strip.width /= 2;
+  strip.height /= 2;
+  strip.strokeWidth = std::max(1.0f, 0.5f * strip.strokeWidth);
+  strip.strokeLength *= 0.5f;
+  strip.toothSize = std::max(1.0f, 0.5f * strip.toothSize);
+  return strip;
 }
 
 /// Comments begin in one column.
@@ -141,11 +157,15 @@ std::string keyLine(const std::string& key, const std::string& value, std::strin
   return why.empty() ? line + "\n" : fmt::format("{:<32} # {}\n", line, why);
 }
 
+float pixelsOf(const PresetKey& key, int height) {
+  return std::max(key.ofHeight * static_cast<float>(height), 0.8f);
+}
+
 std::string valueOf(const PresetKey& key, int height) {
   if (!key.value.empty()) return std::string(key.value);
-  const float pixels = key.ofHeight * static_cast<float>(height);
+  const float pixels = pixelsOf(key, height);
   if (key.section == "smooth") return fmt::format("{}", static_cast<int>(std::lround(pixels)));
-  return fmt::format("{:.1f}", std::max(pixels, 0.8f));
+  return fmt::format("{:.1f}", pixels);
 }
 
 std::string sectionsText(const LookPreset& preset, int height) {
@@ -175,18 +195,37 @@ std::string hexOf(const V3f& linear) {
 float ownWhite(const DraftFrame& frame, const DraftThing& thing) {
   const double all = static_cast<double>(frame.width) * frame.height;
   if (static_cast<double>(thing.pixels) < 0.1 * all) return 0;
-  return thing.brightTone < 0.75f * frame.brightTone ? std::max(thing.brightTone, 0.2f) : 0;
+  return thing.brightTone < 0.75f * frame.brightTone ? std::max(headroom * thing.brightTone, 0.2f)
+                                                     : 0;
 }
 
-/// Lines on both sides of something thin would be all that is left of it.
-bool takesOutline(const LookPreset& preset, const DraftFrame& frame, const DraftThing& thing) {
-  if (thing.rimPixels == 0) return true;
-  float line = 1.5f;
+/// Width of a thing's outlines, pixels: the preset's, less on things that are narrower than three
+/// of them, for lines on both sides would be all that is left; 0 where they would be hairs.
+float outlineWidth(const LookPreset& preset, const DraftFrame& frame, const DraftThing& thing) {
+  constexpr float narrowest = 3.0f;
+  float line = OutlineParams{}.width;
   for (const PresetKey& key : preset.keys)
     if (key.section == "outline" && key.key == "width")
-      line = key.ofHeight * static_cast<float>(frame.height);
-  const float width = 2.0f * static_cast<float>(thing.pixels) / static_cast<float>(thing.rimPixels);
-  return width >= 3.0f * line;
+      line = pixelsOf(key, frame.height / frame.scale);
+  if (thing.rimPixels == 0) return line;
+  const float width = 2.0f * static_cast<float>(thing.pixels) /
+                      static_cast<float>(thing.rimPixels * static_cast<size_t>(frame.scale));
+  if (width < narrowest) return 0;
+  return width < 3.0f * line ? std::max(0.2f * width, 0.5f) : line;
+}
+
+std::string outlineText(const LookPreset& preset, const DraftFrame& frame,
+                        const DraftThing& thing) {
+  if (preset.outlineLightness < 0) return "";
+  const float width = outlineWidth(preset, frame, thing);
+  if (width <= 0) return "";
+  const V3f line = presetOutline(preset, thing.colour);
+  std::string text =
+      fmt::format("outline_colour = [{:.3f}, {:.3f}, {:.3f}]\n", line.x, line.y, line.z);
+  DraftThing broad;
+  if (width < outlineWidth(preset, frame, broad))
+    text += keyLine("outline.width", fmt::format("{:.1f}", width), "for it is thin");
+  return text;
 }
 
 std::string styleText(const LookPreset& preset, const DraftFrame& frame, const Style& style) {
@@ -206,14 +245,12 @@ std::string styleText(const LookPreset& preset, const DraftFrame& frame, const S
                     "world units; twice as much, strokes twice as large");
   if (const float white = ownWhite(frame, group.thing); white > 0)
     text += keyLine("tone.white", fmt::format("{:.2f}", white), "it is lit less than the rest");
-  if (preset.outlineLightness >= 0 && takesOutline(preset, frame, group.thing)) {
-    const V3f line = presetOutline(preset, group.thing.colour);
-    text += fmt::format("outline_colour = [{:.3f}, {:.3f}, {:.3f}]\n", line.x, line.y, line.z);
-  }
+  text += outlineText(preset, frame, group.thing);
   return text;
 }
 
 std::string headText(const LookPreset& preset, const DraftFrame& frame) {
+  const float white = headroom * frame.brightTone;
   return fmt::format(
              "# {}: {}.\n"
              "# Made by `kagefude look new` from {}: colours are the things' own there, sizes fit\n"
@@ -221,12 +258,14 @@ std::string headText(const LookPreset& preset, const DraftFrame& frame) {
              "them.\n"
              "kagefude = 1\n",
              preset.name, preset.sentence, printable(frame.name), frame.width, frame.height) +
-         (frame.brightTone < 0.99f
-              ? "\n[tone]\n" + keyLine("white",
-                                       fmt::format("{:.2f}", std::max(frame.brightTone, 0.5f)),
-                                       "the frame's brightest tone is the strips' brightest row")
-              : "") +
-         sectionsText(preset, frame.height);
+         (frame.scale > 1 ? "\n[output]\n" + keyLine("scale", fmt::format("{}", frame.scale),
+                                                     "of frames that were exported larger")
+                          : "") +
+         (white < 0.99f ? "\n[tone]\n" +
+                              keyLine("white", fmt::format("{:.2f}", std::max(white, 0.5f)),
+                                      "what is brightest in the frame takes the strips' upper rows")
+                        : "") +
+         sectionsText(preset, frame.height / frame.scale);
 }
 
 std::string restText(const LookPreset& preset, const std::string& strip) {
@@ -267,7 +306,10 @@ DraftLook draftLook(const LookPreset& preset, const DraftFrame& frame,
   int seed = 0;
   for (const Group& group : kept) {
     const std::string file = freeName(fileStem(group), taken);
-    draft.strips.push_back({file, presetStrip(preset, group.thing.colour, ++seed)});
+    StripPaintParams strip = presetStrip(preset, group.thing.colour, ++seed);
+    const bool small =
+        2.0f * stripOnScreen(preset, frame, group.thing) < static_cast<float>(strip.width);
+    draft.strips.push_back({file, small ? halved(strip) : strip});
     draft.text +=
         styleText(preset, frame,
                   {&group, stripFolder + "/" + file, mappingDistance(preset, frame, group.thing)});

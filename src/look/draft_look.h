@@ -23,6 +23,7 @@ struct DraftThing {
 struct DraftFrame {
   std::string name;           ///< the frame's file, for the comment
   int width = 0, height = 0;  ///< pixels
+  int scale = 1;              ///< how many times larger it is than what is to be written
   float brightTone = 1;       ///< of all things
   std::vector<DraftThing> things;
 };
@@ -42,9 +43,12 @@ struct DraftLook {
 /// why. One style for each material, or object where materials have no names; a material whose
 /// objects differ in colour (by more than 0.06 in Oklab) has one for each. Things beyond the 24
 /// largest take the strip of a larger one that differs by less than 0.06, and beyond 64 strips the
-/// nearest, and share its style. A last style catches what the frame does not show. Strokes are
-/// sized by the pixels that a thing fills. `stripFolder` is the folder of strips as the look names
-/// it. The same text for the same frame.
+/// nearest, and share its style. `tone.white` is 1.15 times the frame's bright tone (from 0.5 on),
+/// of a thing of more than a tenth of the frame that stays below three quarters of it its own.
+/// Outlines are thinner on things narrower than three of them, and none on those narrower than 3
+/// pixels. A last style catches what the frame does not show. Strokes are sized by the pixels that
+/// a thing fills; strips that are shown at less than half their size are painted at half of it.
+/// `stripFolder` is the folder of strips as the look names it. The same text for the same frame.
 DraftLook draftLook(const LookPreset& preset, const DraftFrame& frame,
                     const std::string& stripFolder);
 

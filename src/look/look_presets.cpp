@@ -61,8 +61,8 @@ constexpr PresetKey gouacheKeys[] = {
 };
 
 constexpr TonePoint celRamp[] = {{0.00f, 0.07f, 0.60f, 1.05f},  {0.30f, 0.07f, 0.60f, 1.05f},
-                                 {0.302f, 0.03f, 0.98f, 1.05f}, {0.93f, 0.03f, 0.98f, 1.05f},
-                                 {0.932f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
+                                 {0.302f, 0.03f, 0.98f, 1.05f}, {0.95f, 0.03f, 0.98f, 1.05f},
+                                 {0.952f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
 void paintCel(StripPaintParams& p) {
   p.strokeWidth = 2;
   p.strokeLength = 200;
@@ -93,7 +93,6 @@ constexpr PresetKey inkKeys[] = {
     {"brush", "contrast", "1.15", 0, "crisp lines"},
     {"outline", "width", "", 0.0034f, "pixels, of the picture that is written"},
     {"outline", "crease_angle", "35", 0, "lines along edges of the form too"},
-    {"output", "edges", "\"coverage\"", 0, "clean where things meet"},
 };
 
 constexpr TonePoint pastelRamp[] = {{0.00f, 0.26f, 0.36f, 1.00f},
@@ -114,7 +113,7 @@ void paintPastel(StripPaintParams& p) {
   p.under = 0.14f;
   p.tooth = 0.8f;
   p.toothSize = 3;
-  p.hueShift = 32;
+  p.hueShift = 26;
 }
 constexpr PresetKey pastelKeys[] = {
     {"brush", "contrast", "1.3", 0, "the grain of the paper shows"},
@@ -125,7 +124,7 @@ constexpr PresetKey pastelKeys[] = {
 constexpr TonePoint watercolourRamp[] = {{0.00f, 0.30f, 0.42f, 1.15f},
                                          {0.30f, 0.38f, 0.46f, 1.15f},
                                          {0.55f, 0.50f, 0.44f, 1.00f},
-                                         {0.80f, 0.74f, 0.23f, 0.60f},
+                                         {0.80f, 0.72f, 0.25f, 0.80f},
                                          {1.00f, 0.95f, 0.04f, 0.12f}};
 void paintWatercolour(StripPaintParams& p) {
   p.strokeWidth = 150;

@@ -9,8 +9,9 @@ namespace {
 
 using namespace testing;
 
-TestFrame threeThings() {
-  TestFrame frame(8, 4);
+/// 8 x 4 pixels: five columns of Thing, two of Other, one of nothing.
+void showTwoThings(TestFrame& frame) {
+  frame.sidecar["lights"] = {lightJson("Key", "point", {2, 3, 4}, {0, 0, -1}, 100)};
   frame.addObject("Other", 2, {-1, -1, -1}, {1, 1, 1});
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 8; ++x) {
@@ -19,7 +20,6 @@ TestFrame threeThings() {
       if (x >= 5) frame.plane("IndexOB.X")(x, y) = 2;
       if (x == 7) frame.plane("IndexOB.X")(x, y) = 0;
     }
-  return frame;
 }
 
 void setAlbedo(TestFrame& frame, int x, int y, const V3f& c) {
@@ -35,7 +35,8 @@ std::vector<DraftThing> thingsOf(const TestFrame& frame) {
 }
 
 TEST(SeenThings, MediansOfAlbedoByHand) {
-  TestFrame frame = threeThings();
+  TestFrame frame(8, 4);
+  showTwoThings(frame);
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 8; ++x)
       setAlbedo(frame, x, y, x == 0 ? V3f(9, 9, 9) : V3f(0.2f, 0.4f, x < 5 ? 0.6f : 0.1f));
@@ -54,7 +55,8 @@ TEST(SeenThings, MediansOfAlbedoByHand) {
 }
 
 TEST(SeenThings, BlackAlbedoTakesTheBrighterHalfOfTheBeauty) {
-  TestFrame frame = threeThings();
+  TestFrame frame(8, 4);
+  showTwoThings(frame);
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 8; ++x) {
       setAlbedo(frame, x, y, V3f(x < 5 ? 0.3f : 0.0f));
@@ -75,7 +77,7 @@ TEST(CheckLook, TellsWhatDoesNothing) {
       frame.setVector("Position", x, y,
                       {0.1f * static_cast<float>(x), 0.1f * static_cast<float>(y), 0});
   const std::string look =
-      "[shadow]\nmethod = \"none\"\n[tone]\ngamma = 2\n[brush]\npole_fade = 1\ncontrast = 1\n"
+      "[tone]\ngamma = 2\n[brush]\npole_fade = 1\ncontrast = 1\n"
       "[[style]]\nobject = \"Thing\"\nstrip = \"builtin:soft\"\ntone.black = 0.1\n"
       "[[style]]\nobject = \"Thng\"\ntone.black = 0.2\n";
   const std::filesystem::path path = frame.write();

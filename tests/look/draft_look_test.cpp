@@ -26,7 +26,7 @@ DraftThing thing(const std::string& object, const std::string& material, size_t 
   return result;
 }
 
-DraftFrame frameOf(std::vector<DraftThing> things) { return {"f.exr", 400, 200, 1, things}; }
+DraftFrame frameOf(std::vector<DraftThing> things) { return {"f.exr", 400, 200, 1, 1, things}; }
 
 Look lookOf(const DraftLook& draft) { return readLookText(draft.text, "look.toml", {}); }
 
@@ -66,12 +66,12 @@ TEST(DraftLook, AMaterialOfTwoColoursHasAStyleForEach) {
       lookPreset("cel"),
       frameOf({thing("Leaf Red", "Leaf", 500, {0.5f, 0.05f, 0.02f}),
                thing("Leaf Gold", "Leaf", 400, {0.6f, 0.4f, 0.05f}),
-               thing("Left", "Stone", 300, V3f(0.3f)), thing("Right", "Stone", 200, V3f(0.31f))}),
+               thing("Left", "Stone", 350, V3f(0.3f)), thing("Right", "Stone", 200, V3f(0.31f))}),
       "s");
   const Look look = lookOf(draft);
   ASSERT_EQ(look.styles.size(), 4u);
   EXPECT_EQ(look.styles[0].style.material, std::vector<std::string>{"Stone"})
-      << "its 500 pixels on two objects come as one";
+      << "its 550 pixels on two objects come as one";
   EXPECT_TRUE(look.styles[0].style.object.empty());
   EXPECT_EQ(look.styles[1].style.object, std::vector<std::string>{"Leaf Red"});
   EXPECT_EQ(look.styles[1].style.material, std::vector<std::string>{"Leaf"});
@@ -90,13 +90,37 @@ TEST(DraftLook, HundredsOfSmallThingsShareStrips) {
   EXPECT_EQ(named, 601u) << "every one of them, and *";
 }
 
-TEST(DraftLook, ThinThingsHaveNoOutlines) {
-  DraftThing grass = thing("Grass", "", 900, {0.1f, 0.3f, 0.1f});
-  grass.rimPixels = 880;
-  const Look look = lookOf(
-      draftLook(lookPreset("ink"), frameOf({thing("Rock", "", 5000, V3f(0.2f)), grass}), "s"));
+TEST(DraftLook, ThinThingsHaveThinOutlinesOrNone) {
+  DraftThing twig = thing("Twig", "", 1000, V3f(0.1f)), grass = thing("Grass", "", 900, V3f(0.1f));
+  twig.rimPixels = 500;   // 4 pixels wide
+  grass.rimPixels = 880;  // 2
+  DraftFrame frame = frameOf({thing("Rock", "", 5000, V3f(0.2f)), twig, grass});
+  frame.height = 1000;  // lines of 3.4 pixels
+  const Look look = lookOf(draftLook(lookPreset("ink"), frame, "s"));
   EXPECT_FALSE(look.styles[0].style.outlineColour.empty());
-  EXPECT_TRUE(look.styles[1].style.outlineColour.empty());
+  EXPECT_FLOAT_EQ(look.styles[0].passes.outline.width, 3.4f);
+  EXPECT_FALSE(look.styles[1].style.outlineColour.empty());
+  EXPECT_FLOAT_EQ(look.styles[1].passes.outline.width, 0.8f);
+  EXPECT_TRUE(look.styles[2].style.outlineColour.empty());
+}
+
+TEST(DraftLook, LargerFramesAreWrittenAtTheShotsSize) {
+  DraftFrame frame = frameOf({thing("A", "", 9000, V3f(0.2f))});
+  frame.height = 2000;
+  frame.scale = 2;
+  const Look look = lookOf(draftLook(lookPreset("ink"), frame, "s"));
+  EXPECT_EQ(look.output.scale, 2);
+  EXPECT_FLOAT_EQ(look.passes.outline.width, 3.4f) << "of the 1000 rows that are written";
+}
+
+TEST(DraftLook, SmallThingsHaveSmallStrips) {
+  DraftFrame frame =
+      frameOf({thing("Big", "", 1000000, V3f(0.5f)), thing("Small", "", 500, V3f(0.1f))});
+  frame.height = 1000;
+  const DraftLook draft = draftLook(lookPreset("oil"), frame, "s");
+  EXPECT_EQ(draft.strips[0].params.width, 512);
+  EXPECT_EQ(draft.strips[1].params.width, 256);
+  EXPECT_FLOAT_EQ(draft.strips[1].params.strokeWidth, 0.5f * draft.strips[0].params.strokeWidth);
 }
 
 TEST(DraftLook, ExposesForWhatIsLit) {
@@ -106,9 +130,9 @@ TEST(DraftLook, ExposesForWhatIsLit) {
   DraftFrame frame = frameOf({sky, rock});
   frame.brightTone = 0.8f;
   const Look look = lookOf(draftLook(lookPreset("oil"), frame, "s"));
-  EXPECT_FLOAT_EQ(look.passes.tone.white, 0.8f);
-  EXPECT_FLOAT_EQ(look.styles[0].passes.tone.white, 0.4f) << "half the frame, lit half as much";
-  EXPECT_FLOAT_EQ(look.styles[1].passes.tone.white, 0.8f);
+  EXPECT_FLOAT_EQ(look.passes.tone.white, 0.92f) << "1.15 times as much";
+  EXPECT_FLOAT_EQ(look.styles[0].passes.tone.white, 0.46f) << "half the frame, lit half as much";
+  EXPECT_FLOAT_EQ(look.styles[1].passes.tone.white, 0.92f);
 }
 
 TEST(DraftLook, NamesAreQuotedSoThatTheyFitThemselves) {

@@ -170,10 +170,13 @@ Floats wrappedGrain(const Floats& grain, int width, int height) {
         const float column = left + (static_cast<float>(x) + 0.5f) * scale - 0.5f;
         const float own = bilinear(grain, column, row);
         const float share = (static_cast<float>(x) + 0.5f) / join;
-        const float beyond =
-            share < 1.0f ? bilinear(grain, column + static_cast<float>(width) * scale, row) : 0.0f;
-        result(x, y) =
-            share < 1.0f ? std::sqrt(share) * own + std::sqrt(1.0f - share) * beyond : own;
+        if (share >= 1.0f) {
+          result(x, y) = own;
+          continue;
+        }
+        const float beyond = bilinear(grain, column + static_cast<float>(width) * scale, row);
+        const SinCos weights = sinCosTurns(0.25f * share);
+        result(x, y) = weights.sin * own + weights.cos * beyond;
       }
   });
   return result;

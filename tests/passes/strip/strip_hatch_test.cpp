@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "image/oklab.h"
 #include "passes/strip/strip.h"
 
 namespace kagefude {
@@ -54,7 +55,9 @@ TEST(StripHatch, ARowsMeanIsItsTone) {
 TEST(StripHatch, LinesStayWhileTheToneChanges) {
   // Of a strip of lines the grain is the field of shares itself, in every row: what is darkest in
   // one row (a line's middle) is darkest a few rows on.
-  const PaintedStrip painted = hatchStrip(penLines(1));
+  PaintedStrip painted = hatchStrip(penLines(1));
+  for (Floats* plane : {&painted.r, &painted.g, &painted.b})
+    for (int i = 0; i < 512 * 512; ++i) plane->row(0)[i] = linearOfSrgb(plane->row(0)[i]);
   const Strip strip = makeStrip(painted.r, painted.g, painted.b);
   const StripGrain::Level& level = strip.grain.levels.front();
   ASSERT_GT(level.height, 400) << "rows of lines count as strokes";
