@@ -37,6 +37,7 @@ void addCompCommand(CLI::App& app, const std::string& commandLine, Console& cons
 void addInspectCommand(CLI::App& app, Console& console, int& exit);
 void addSheetCommand(CLI::App& app, Console& console, int& exit);
 void addPassesCommand(CLI::App& app, Console& console, int& exit);
+void addLookCommand(CLI::App& app, Console& console, int& exit);
 void addStripCommand(CLI::App& app, Console& console, int& exit);
 void addCompareCommand(CLI::App& app, Console& console, int& exit);
 void addBenchCommand(CLI::App& app, Console& console, int& exit);

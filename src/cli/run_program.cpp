@@ -66,6 +66,7 @@ int run(int argc, const char* const* argv, Console& console) {
   addSheetCommand(app, console, exit);
   addLiveCommand(app, console, exit);
   addPassesCommand(app, console, exit);
+  addLookCommand(app, console, exit);
   addStripCommand(app, console, exit);
   addCompareCommand(app, console, exit);
   addBenchCommand(app, console, exit);

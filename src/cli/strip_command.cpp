@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,33 +12,107 @@
 #include "base/printed_json.h"
 #include "cli/commands.h"
 #include "exr/write_image.h"
+#include "image/oklab.h"
 #include "look/override.h"
 #include "look/read_section.h"
 #include "passes/strip/strip_check.h"
+#include "passes/strip/strip_from_picture.h"
 #include "passes/strip/strip_paint.h"
+#include "passes/strip/strip_tones.h"
+#include "picture/palette_file.h"
 #include "picture/strip_file.h"
 
 namespace kagefude {
 namespace {
 
 struct MakeOptions {
-  std::string output, preset = "soft";
+  std::string output, preset = "soft", from, palette;
+  std::vector<int> patch;
   std::vector<std::string> settings;
 };
 
+/// A file of a palette, or its colours themselves.
+std::vector<V3f> paletteOf(const std::string& text) {
+  const std::string suffix = std::filesystem::path(text).extension().string();
+  if (suffix.empty()) return paletteFromText(text);
+  return readPalette(text);
+}
+
 StripPaintParams paramsFrom(const MakeOptions& options) {
   StripPaintParams params = stripPreset(options.preset);
+  if (!options.palette.empty()) params.stops = stopsOfPalette(paletteOf(options.palette));
   toml::table section;
   for (const std::string& text : options.settings) setValue(section, text);
   readSection(section, stripTable, &params);
   return params;
 }
 
+/// The patch of a picture that is asked for, all of it without one; UsageError where it reaches
+/// beyond.
+PicturePatch patchOf(const MakeOptions& options, const StripPicture& picture) {
+  if (options.patch.empty()) return {0, 0, picture.width(), picture.height()};
+  const PicturePatch patch{options.patch[0], options.patch[1], options.patch[2], options.patch[3]};
+  if (patch.x < 0 || patch.y < 0 || patch.width < 1 || patch.height < 1 ||
+      patch.width > picture.width() - patch.x || patch.height > picture.height() - patch.y)
+    throw UsageError(fmt::format("--patch {}x{} at {},{} is not inside {}, which is {} x {} pixels",
+                                 patch.width, patch.height, patch.x, patch.y, options.from,
+                                 picture.width(), picture.height()));
+  return patch;
+}
+
+Floats cutOut(const Floats& plane, const PicturePatch& patch) {
+  Floats cut(patch.width, patch.height);
+  for (int y = 0; y < patch.height; ++y)
+    std::copy_n(plane.row(patch.y + y) + patch.x, patch.width, cut.row(y));
+  return cut;
+}
+
+/// In display-encoded sRGB, as strips are; other colours than those two would come out wrong.
+void encode(const std::string& file, StripPicture& picture) {
+  if (picture.sceneLinear) {
+    for (Floats* plane : {&picture.red, &picture.green, &picture.blue})
+      for (size_t i = 0; i < plane->view().pixels(); ++i)
+        plane->row(0)[i] = srgbOfLinear(plane->row(0)[i]);
+  } else if (!picture.space.empty() && picture.space != "sRGB") {
+    throw InputError(
+        fmt::format("{} says that its colours are {}; save it as sRGB, or as "
+                    "scene-linear floats",
+                    file, picture.space));
+  }
+}
+
+PaintedStrip stripOfPicture(const MakeOptions& options) {
+  // What a picture's strip has of the painted ones' parameters.
+  StripPaintParams given;
+  toml::table section;
+  for (const std::string& text : options.settings) setValue(section, text);
+  for (const auto& [key, value] : section)
+    if (key != "width" && key != "height" && key != "hue_shift")
+      throw UsageError(
+          fmt::format("--set {}: strokes and tones come from the picture; width, height and "
+                      "hue_shift can be set",
+                      key.str()));
+  readSection(section, stripTable, &given);
+  StripPicture picture = readStrip(options.from);
+  const PicturePatch patch = patchOf(options, picture);
+  encode(options.from, picture);
+  try {
+    return stripFromPicture(cutOut(picture.red, patch), cutOut(picture.green, patch),
+                            cutOut(picture.blue, patch),
+                            {given.width, given.height, given.hueShift});
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", options.from, error.what()));
+  }
+}
+
 void makeStripFile(const MakeOptions& options, Console& console) {
   requireSuffix(options.output, ".png", "output");
-  const PaintedStrip strip = paintStrip(paramsFrom(options));
+  const PaintedStrip strip =
+      options.from.empty() ? paintStrip(paramsFrom(options)) : stripOfPicture(options);
   writePng(options.output, strip.r, strip.g, strip.b, {}, 16);
   console.result(fmt::format("{}: {} x {}", options.output, strip.r.width(), strip.r.height()));
+  for (const std::string& problem : checkStrip(strip.r, strip.g, strip.b).problems)
+    console.message(fmt::format("warning: {}: {}", options.output, problem));
 }
 
 nlohmann::ordered_json toJson(const StripReport& report) {
@@ -80,9 +155,20 @@ void addMake(CLI::App& strip, Console& console) {
   CLI::App* command = strip.add_subcommand(
       "make", "Paint a seamless strip; its parameters are those of `kagefude passes strip`");
   command->add_option("output", options->output, "picture to write (PNG, 16 bit)")->required();
-  command->add_option("--preset", options->preset, "soft, fine or cel (soft)")
+  command->add_option("--preset", options->preset, "neutral, soft, fine or cel (soft)")
       ->check(CLI::IsMember(
           std::vector<std::string>(std::begin(stripPresets), std::end(stripPresets))));
+  CLI::Option* const from = command->add_option(
+      "--from", options->from, "picture whose tones and strokes the strip takes, of any format");
+  command->add_option("--patch", options->patch, "of --from only the patch at x,y of w,h pixels")
+      ->delimiter(',')
+      ->expected(4)
+      ->needs(from);
+  command
+      ->add_option("--palette", options->palette,
+                   "tones of a palette, from dark to bright: GIMP's (.gpl), Adobe's (.ase), or "
+                   "colours such as #2b1d38,#8a3324,#f2e3c2")
+      ->excludes(from);
   command->add_option("--set", options->settings, "key=value, over the preset's own");
   command->callback([options, &console] { makeStripFile(*options, console); });
 }

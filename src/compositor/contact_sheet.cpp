@@ -24,9 +24,6 @@ void blit(const Floats& tile, View<float> sheet, int left, int top) {
 
 }  // namespace
 
-ContactSheet::ContactSheet(const Colour& colour, const ColourParams& spaces, int tileWidth)
-    : colour_(colour), spaces_(spaces), tileWidth_(tileWidth) {}
-
 void ContactSheet::add(const std::string& title, int width, int height, const Pixel& pixel,
                        bool average) {
   const int across = std::min(tileWidth_, width);
@@ -81,7 +78,7 @@ void ContactSheet::picture(const std::string& title, Vec3View plane) {
   add(
       title, plane.width(), plane.height(), [&](int x, int y) { return plane(x, y); }, true);
   Tile& tile = tiles_.back();
-  colour_.toDisplay(tile.r, tile.g, tile.b, spaces_.display, spaces_.view);
+  if (colour_) colour_->toDisplay(tile.r, tile.g, tile.b, spaces_->display, spaces_->view);
 }
 
 void ContactSheet::write(const std::filesystem::path& path) const {

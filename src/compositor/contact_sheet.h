@@ -16,7 +16,14 @@ namespace kagefude {
 class ContactSheet : public StageSink {
  public:
   /// `tileWidth` in pixels; frames narrower than that are not enlarged.
-  ContactSheet(const Colour& colour, const ColourParams& spaces, int tileWidth = 480);
+  explicit ContactSheet(int tileWidth = 480) : tileWidth_(tileWidth) {}
+
+  /// The configuration, and the display and view, through which pictures are shown from now on;
+  /// both must live as long as pictures come.
+  void showThrough(const Colour& colour, const ColourParams& spaces) {
+    colour_ = &colour;
+    spaces_ = &spaces;
+  }
 
   void number(const std::string& title, View<const float> plane) override;
   void mask(const std::string& title, View<const uint8_t> plane) override;
@@ -36,8 +43,8 @@ class ContactSheet : public StageSink {
   using Pixel = std::function<V3f(int x, int y)>;
   void add(const std::string& title, int width, int height, const Pixel& pixel, bool average);
 
-  const Colour& colour_;
-  const ColourParams& spaces_;
+  const Colour* colour_ = nullptr;
+  const ColourParams* spaces_ = nullptr;
   int tileWidth_;
   std::vector<Tile> tiles_;
 };

@@ -116,6 +116,16 @@ Strip loadStrip(const Look& look, const Colour& colour, const std::string& name)
 
 }  // namespace
 
+V3f toStripLinear(const Colour& colour, const V3f& working) {
+  for (const std::string_view space : paintedSpaces) {
+    if (!colour.hasSpace(space)) continue;
+    V3f c = working;
+    colour.fromWorking({&c.x, 1, 1}, {&c.y, 1, 1}, {&c.z, 1, 1}, space);
+    return {linearFromSrgb(c.x), linearFromSrgb(c.y), linearFromSrgb(c.z)};
+  }
+  return working;
+}
+
 std::string stripColourSpace(const Look& look) {
   return look.colour.strip.empty() ? std::string(paintedSpaces[0]) : look.colour.strip;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "colour/colour.h"
+#include "image/vec.h"
 #include "look/look.h"
 #include "passes/strip/strip.h"
 
@@ -43,6 +44,10 @@ class StripSet {
 
 /// The space of strips that are pictures: the look's colour.strip, else sRGB.
 std::string stripColourSpace(const Look& look);
+
+/// A colour of the working space in the linear Rec. 709 that painted strips are encoded from; as it
+/// is where the configuration knows no such space.
+V3f toStripLinear(const Colour& colour, const V3f& working);
 
 /// Whether a strip's name means one that is painted by the program itself.
 bool isBuiltinStrip(const std::string& name);

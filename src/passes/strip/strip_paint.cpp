@@ -1,56 +1,20 @@
 #include "passes/strip/strip_paint.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/nearest_name.h"
 #include "image/parallel.h"
-#include "image/real_math.h"
-#include "passes/strip/stroke_noise.h"
+#include "image/vec.h"
+#include "passes/strip/paper_tooth.h"
+#include "passes/strip/strip_gradient.h"
+#include "passes/strip/strip_hatch.h"
 
 namespace kagefude {
 namespace {
 
-struct Colour {
-  float r = 0, g = 0, b = 0;
-};
-
 float smoothStep(float t) {
   const float c = std::clamp(t, 0.0f, 1.0f);
   return c * c * (3.0f - 2.0f * c);
-}
-
-void checkStops(const std::vector<float>& stops) {
-  if (stops.size() < 8 || stops.size() % 4 != 0)
-    throw LookError(fmt::format(
-        "strip.stops has {} numbers; expected two or more stops of place, red, green, blue",
-        stops.size()));
-  for (size_t i = 4; i < stops.size(); i += 4)
-    if (stops[i] <= stops[i - 4])
-      throw LookError(fmt::format("strip.stops: place {} follows {}; places must rise from 0 to 1",
-                                  stops[i], stops[i - 4]));
-  if (stops[0] != 0.0f || stops[stops.size() - 4] != 1.0f)
-    throw LookError(fmt::format("strip.stops run from {} to {}; they must run from 0 to 1",
-                                stops[0], stops[stops.size() - 4]));
-}
-
-Colour gradientAt(const std::vector<float>& stops, float place) {
-  const float t = std::clamp(place, 0.0f, 1.0f);
-  size_t i = 0;
-  while (i + 8 < stops.size() && t > stops[i + 4]) i += 4;
-  const float f = (t - stops[i]) / (stops[i + 4] - stops[i]);
-  const auto mix = [&](size_t c) { return stops[i + c] + (stops[i + 4 + c] - stops[i + c]) * f; };
-  return {mix(1), mix(2), mix(3)};
-}
-
-Colour colourAt(const StripPaintParams& params, float place) {
-  if (params.bands <= 0) return gradientAt(params.stops, place);
-  const float bands = static_cast<float>(params.bands);
-  const float band = std::min(std::floor(std::clamp(place, 0.0f, 1.0f) * bands), bands - 1.0f);
-  return gradientAt(params.stops, bands > 1.0f ? band / (bands - 1.0f) : 0.5f);
 }
 
 /// One stroke along a row; lengths in pixels, y downward.
@@ -58,7 +22,7 @@ struct Stroke {
   float start = 0, length = 0, y = 0;
   float bow = 0;  ///< how far the middle hangs below the ends
   float strength = 1;
-  Colour colour;
+  V3f colour{0, 0, 0};
   uint32_t seed = 0;
 };
 
@@ -75,11 +39,14 @@ class Painter {
  public:
   explicit Painter(const StripPaintParams& params)
       : params_(params),
+        gradient_(params),
+        paper_(static_cast<uint32_t>(params.seed) ^ 0x2545f491u, params.width, params.height,
+               params.toothSize),
         columns_{Floats(params.height, params.width), Floats(params.height, params.width),
                  Floats(params.height, params.width)} {
     for (int y = 0; y < params.height; ++y) {
-      const Colour c = colourAt(
-          params, 1.0f - (static_cast<float>(y) + 0.5f) / static_cast<float>(params.height));
+      const float place = 1.0f - (static_cast<float>(y) + 0.5f) / static_cast<float>(params.height);
+      const V3f c = gradient_.at(place + params.under);
       for (int x = 0; x < params.width; ++x) blend(x, y, c, 1.0f);
     }
   }
@@ -121,7 +88,7 @@ class Painter {
       stroke.bow = (noise.next() - 0.5f) * params_.wobble * params_.strokeWidth;
       stroke.strength = 1.0f - params_.pressure * 0.6f * noise.next();
       const float place = 1.0f - stroke.y / static_cast<float>(params_.height);
-      stroke.colour = colourAt(params_, place + (noise.next() - 0.5f) * 2.0f * params_.jitter);
+      stroke.colour = gradient_.at(place + (noise.next() - 0.5f) * 2.0f * params_.jitter);
       stroke.seed = noise.nextBits();
       strokes.push_back(stroke);
       x += stroke.length * (0.7f + 0.2f * noise.next());
@@ -164,12 +131,37 @@ class Painter {
     StrokeNoiseColumn streaks(stroke.seed ^ 0x51ed270bu, along / (14.0f * hair));
     // Streaks along the stroke are deeper where the brush runs dry.
     const float depth = params_.bristle * (0.5f + 0.5f * (1.0f - lift));
+    float above = 0.0f;
     for (int row = top; row <= bottom; ++row) {
       const float across = (static_cast<float>(row) + 0.5f - y);
-      const float alpha =
-          cover * edge(std::fabs(across), radius) * (1.0f - depth * streaks.at(across / hair));
-      if (alpha > 0.0f) blend(x, row, stroke.colour, alpha);
+      const float inside = edge(std::fabs(across), radius), streak = streaks.at(across / hair);
+      float alpha = cover * inside * (1.0f - depth * streak);
+      if (params_.tooth > 0.0f) alpha *= takenByPaper(x, row, pen * lift);
+      const float height = inside * (1.0f - streak);
+      const float light = lightOn(height - above, std::fabs(across) / radius);
+      above = height;
+      if (alpha > 0.0f) blend(x, row, light == 1.0f ? stroke.colour : lit(stroke, light), alpha);
     }
+  }
+
+  // How much of a stroke the paper takes: its peaks all, its hollows less the lighter the pen.
+  float takenByPaper(int x, int row, float pen) const {
+    const float peak = paper_.at(static_cast<float>(x) + 0.5f, static_cast<float>(row) + 0.5f);
+    const float taken = smoothStep((peak - 0.62f + 0.3f * pen) * 5.0f + 0.5f);
+    return 1.0f - params_.tooth * (1.0f - taken);
+  }
+
+  // What thickness (`rise` from the texel above) and a dried rim make of a colour, as a factor.
+  float lightOn(float rise, float out) const {
+    if (params_.relief == 0.0f && params_.pool == 0.0f) return 1.0f;
+    const float ridge = std::clamp(1.6f * rise, -0.6f, 0.6f);
+    const float rim = smoothStep((out - 0.7f) / 0.25f);
+    return (1.0f + params_.relief * ridge) * (1.0f - 0.35f * params_.pool * rim);
+  }
+
+  static V3f lit(const Stroke& stroke, float light) {
+    const V3f& c = stroke.colour;
+    return {std::min(c.x * light, 1.0f), std::min(c.y * light, 1.0f), std::min(c.z * light, 1.0f)};
   }
 
   // Soft edge of the round brush; never harder than one pixel.
@@ -178,64 +170,26 @@ class Painter {
     return smoothStep((radius - distance) / soft + 0.5f / soft);
   }
 
-  void blend(int x, int y, const Colour& c, float alpha) {
+  void blend(int x, int y, const V3f& c, float alpha) {
     float &r = columns_.r(y, x), &g = columns_.g(y, x), &b = columns_.b(y, x);
-    r = alpha >= 1.0f ? c.r : r + (c.r - r) * alpha;
-    g = alpha >= 1.0f ? c.g : g + (c.g - g) * alpha;
-    b = alpha >= 1.0f ? c.b : b + (c.b - b) * alpha;
+    r = alpha >= 1.0f ? c.x : r + (c.x - r) * alpha;
+    g = alpha >= 1.0f ? c.y : g + (c.y - g) * alpha;
+    b = alpha >= 1.0f ? c.z : b + (c.z - b) * alpha;
   }
 
   const StripPaintParams& params_;
+  StripGradient gradient_;
+  PaperTooth paper_;
   PaintedStrip columns_;  ///< a column of the strip is a row of these, as strokes are painted
 };
 
 }  // namespace
 
 PaintedStrip paintStrip(const StripPaintParams& params) {
-  checkStops(params.stops);
+  if (params.hatch > 0) return hatchStrip(params);
   Painter painter(params);
   painter.paint();
   return painter.picture();
-}
-
-StripPaintParams stripPreset(std::string_view name) {
-  StripPaintParams params;
-  if (name == "soft") return params;
-  if (name == "fine") {
-    params.strokeWidth = 15;
-    params.strokeLength = 130;
-    params.spacing = 0.45f;
-    params.opacity = 0.8f;
-    params.bristle = 0.25f;
-    params.wobble = 0.25f;
-    params.jitter = 0.05f;
-    params.stops = {0.00f, 0.05f, 0.11f, 0.19f, 0.35f, 0.11f, 0.32f, 0.40f, 0.65f, 0.36f,
-                    0.62f, 0.55f, 0.88f, 0.78f, 0.86f, 0.68f, 1.00f, 0.98f, 0.97f, 0.86f};
-    return params;
-  }
-  if (name == "neutral") {
-    params.strokeWidth = 40;
-    params.strokeLength = 220;
-    params.jitter = 0.05f;
-    params.stops = {0.00f, 0.13f, 0.14f, 0.22f, 0.40f, 0.42f, 0.41f, 0.47f,
-                    0.75f, 0.76f, 0.73f, 0.70f, 1.00f, 1.00f, 0.98f, 0.94f};
-    return params;
-  }
-  if (name == "cel") {
-    params.strokeWidth = 26;
-    params.strokeLength = 150;
-    params.spacing = 0.35f;
-    params.opacity = 0.9f;
-    params.hardness = 0.85f;
-    params.wobble = 0.35f;
-    params.jitter = 0.03f;
-    params.bands = 4;
-    params.stops = {0.00f, 0.22f, 0.13f, 0.29f, 0.34f, 0.55f, 0.27f, 0.36f,
-                    0.67f, 0.90f, 0.56f, 0.42f, 1.00f, 1.00f, 0.88f, 0.70f};
-    return params;
-  }
-  throw UsageError(fmt::format("no strip is called {}{}; there are neutral, soft, fine and cel",
-                               name, didYouMean(name, {"neutral", "soft", "fine", "cel"})));
 }
 
 }  // namespace kagefude

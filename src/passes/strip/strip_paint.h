@@ -20,6 +20,14 @@ struct StripPaintParams {
   float wobble = 0.12f;
   float bristle = 0.5f;
   float jitter = 0.06f;
+  float under = 0;
+  float relief = 0;
+  float tooth = 0;
+  float toothSize = 3;
+  float pool = 0;
+  int hatch = 0;
+  std::vector<float> ink{0.09f, 0.08f, 0.10f};
+  float hueShift = 0;
   int bands = 0;
   int seed = 1;
   std::vector<float> stops{0.00f, 0.10f, 0.09f, 0.20f, 0.30f, 0.33f, 0.21f, 0.36f, 0.60f, 0.76f,
@@ -48,6 +56,30 @@ inline constexpr Parameter stripParameters[] = {
                                        "Depth of the streaks that the bristles leave."),
     number<&StripPaintParams::jitter>("jitter", 0, 0.5, "of the range",
                                       "How far a stroke's colour strays along the gradient."),
+    number<&StripPaintParams::under>("under", -1, 1, "of the range",
+                                     "How much brighter (below 0: darker) the ground is that shows "
+                                     "between strokes."),
+    number<&StripPaintParams::relief>("relief", 0, 1, "",
+                                      "How thick the paint lies: light from above catches its "
+                                      "ridges, and what the bristles leave."),
+    number<&StripPaintParams::tooth>("tooth", 0, 1, "",
+                                     "Roughness of the paper, whose hollows dry strokes leave "
+                                     "free."),
+    number<&StripPaintParams::toothSize>("tooth_size", 1, 256, "pixels",
+                                         "Size of the paper's grain."),
+    number<&StripPaintParams::pool>("pool", 0, 1, "",
+                                    "How much darker a wash dries along the rims of its strokes."),
+    number<&StripPaintParams::hatch>(
+        "hatch", 0, 2, "",
+        "Pen lines in place of strokes, stroke_width apart, thicker the darker: 1 along the row, 2 "
+        "crossed in the dark. The last stop is the paper, the others say how much ink."),
+    numbers<&StripPaintParams::ink>("ink", 3, 0, 1, "",
+                                    "Colour of pen lines: red, green, blue in display-encoded "
+                                    "sRGB."),
+    number<&StripPaintParams::hueShift>(
+        "hue_shift", -90, 90, "degrees",
+        "How far colours lean to yellow in the light and to blue in "
+        "the shadow; below 0 the other way round."),
     number<&StripPaintParams::bands>("bands", 0, 64, "",
                                      "Flat bands of a cel look, strokes showing at the steps "
                                      "only; 0 paints a gradient."),

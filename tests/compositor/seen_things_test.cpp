@@ -1,0 +1,97 @@
+#include "compositor/seen_things.h"
+
+#include "compositor/check_look.h"
+#include "compositor/read_frame.h"
+#include "compositor/test_frame.h"
+
+namespace kagefude {
+namespace {
+
+using namespace testing;
+
+/// 8 x 4 pixels: five columns of Thing, two of Other, one of nothing.
+void showTwoThings(TestFrame& frame) {
+  frame.sidecar["lights"] = {lightJson("Key", "point", {2, 3, 4}, {0, 0, -1}, 100)};
+  frame.addObject("Other", 2, {-1, -1, -1}, {1, 1, 1});
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 8; ++x) {
+      frame.setVector("Position", x, y,
+                      {0.5f * static_cast<float>(x), 0.25f * static_cast<float>(y), 0});
+      if (x >= 5) frame.plane("IndexOB.X")(x, y) = 2;
+      if (x == 7) frame.plane("IndexOB.X")(x, y) = 0;
+    }
+}
+
+void setAlbedo(TestFrame& frame, int x, int y, const V3f& c) {
+  frame.plane("DiffCol.R")(x, y) = c.x;
+  frame.plane("DiffCol.G")(x, y) = c.y;
+  frame.plane("DiffCol.B")(x, y) = c.z;
+}
+
+std::vector<DraftThing> thingsOf(const TestFrame& frame) {
+  const FramePlan plan = planWithMaterials(readLook("", {}), frame.write(), 1);
+  const FramePlanes planes = readFramePlanes(plan);
+  return seenThings(plan, planes, Floats(planes.width, planes.height, 0.5f));
+}
+
+TEST(SeenThings, MediansOfAlbedoByHand) {
+  TestFrame frame(8, 4);
+  showTwoThings(frame);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 8; ++x)
+      setAlbedo(frame, x, y, x == 0 ? V3f(9, 9, 9) : V3f(0.2f, 0.4f, x < 5 ? 0.6f : 0.1f));
+  const auto things = thingsOf(frame);
+  ASSERT_EQ(things.size(), 2u);
+  EXPECT_EQ(things[0].object, "Thing");
+  EXPECT_EQ(things[0].pixels, 20u);
+  EXPECT_EQ(things[0].rimPixels, 4u);
+  EXPECT_EQ(things[0].colour, V3f(0.2f, 0.4f, 0.6f)) << "a few odd pixels do not matter";
+  EXPECT_FALSE(things[0].fromBeauty);
+  EXPECT_FLOAT_EQ(things[0].pixelWidth, 0.25f) << "the smaller of both ways";
+  EXPECT_FLOAT_EQ(things[0].brightTone, 0.5f);
+  EXPECT_EQ(things[1].object, "Other");
+  EXPECT_EQ(things[1].pixels, 8u);
+  EXPECT_EQ(things[1].rimPixels, 8u);
+}
+
+TEST(SeenThings, BlackAlbedoTakesTheBrighterHalfOfTheBeauty) {
+  TestFrame frame(8, 4);
+  showTwoThings(frame);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 8; ++x) {
+      setAlbedo(frame, x, y, V3f(x < 5 ? 0.3f : 0.0f));
+      for (const char* channel : {"Combined.R", "Combined.G", "Combined.B", "Combined.A"})
+        frame.plane(channel)(x, y) = y < 2 ? 0.7f : 0.1f;
+    }
+  const auto things = thingsOf(frame);
+  EXPECT_FALSE(things[0].fromBeauty);
+  EXPECT_TRUE(things[1].fromBeauty);
+  EXPECT_EQ(things[1].colour, V3f(0.7f));
+}
+
+TEST(CheckLook, TellsWhatDoesNothing) {
+  TestFrame frame(8, 8);
+  frame.sidecar["lights"] = {lightJson("Key", "point", {2, 3, 4}, {0, 0, -1}, 100)};
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      frame.setVector("Position", x, y,
+                      {0.1f * static_cast<float>(x), 0.1f * static_cast<float>(y), 0});
+  const std::string look =
+      "[tone]\ngamma = 2\n[brush]\npole_fade = 1\ncontrast = 1\n"
+      "[[style]]\nobject = \"Thing\"\nstrip = \"builtin:soft\"\ntone.black = 0.1\n"
+      "[[style]]\nobject = \"Thng\"\ntone.black = 0.2\n";
+  const std::filesystem::path path = frame.write();
+  size_t calls = 0;
+  const LookCheck check = checkLook(look, frame.folder / "look.toml", std::vector{path},
+                                    [&](size_t, size_t) { ++calls; });
+  ASSERT_EQ(check.problems.size(), 2u) << check.problems.front();
+  EXPECT_NE(check.problems[0].find("style 2 fits nothing"), std::string::npos);
+  EXPECT_NE(check.problems[0].find("did you mean Thing?"), std::string::npos);
+  EXPECT_EQ(check.problems[1], "brush.pole_fade changes nothing in this frame")
+      << "of polar strokes only";
+  EXPECT_EQ(check.defaults, std::vector<std::string>{"brush.contrast"});
+  EXPECT_GE(calls, 3u);
+}
+
+}  // namespace
+}  // namespace kagefude

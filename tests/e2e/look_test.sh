@@ -1,0 +1,97 @@
+#!/usr/bin/env bash
+# Looks out of the box, strips from pictures and palettes, looks compared: on the still life, in one command each.
+set -euo pipefail
+. "$(dirname "$0")/frames.sh"
+
+frame=$data/shot.0001.exr
+presets=(oil gouache cel ink pastel watercolour)
+says() { # says FILE TEXT...: every text is in the file
+  local file=$1 text
+  shift
+  for text in "$@"; do check "not said: $text (but: $(head -c 400 "$file"))" grep -qF -- "$text" "$file"; done
+}
+# refused CODE PART COMMAND...: that exit code, one line of error, which holds the part.
+refused() {
+  local code=$1 part=$2
+  shift 2
+  check "$* ends with another code" [ "$(exit_code "$@")" = "$code" ]
+  check "$* says $(head -c 300 "$work/log"), not $part" grep -q "^ERROR: .*$part" "$work/log"
+}
+
+# Every preset: a look that comps, strips that pass their check, a picture of the frame's size; no two alike.
+for preset in "${presets[@]}"; do
+  "$kagefude" look new "$frame" -o "$work/looks/$preset.toml" --preset "$preset" \
+    --preview "$work/$preset.png" >"$work/text" 2>"$work/log"
+  says "$work/text" "$preset.toml: " "$preset.png: "
+  check "$preset: the preview is not what comp makes" "$kagefude" comp "$work/looks/$preset.toml" "$frame" \
+    -o "$work/comp/shot.0001.exr" --preview "$work/comp" --progress none
+  check "$preset: the preview is not what comp makes" cmp -s "$work/$preset.png" "$work/comp/shot.0001.png"
+  for strip in "$work/looks/${preset}_strips"/*.png; do
+    check "$strip is not fit to paint with" "$kagefude" strip check "$strip"
+  done
+done
+check "two presets give one picture" [ "$(md5sum "$work"/*.png | cut -d' ' -f1 | sort -u | wc -l)" = 6 ]
+
+# The same frame, the same bytes.
+"$kagefude" look new "$frame" -o "$work/again/oil.toml" --preset oil >/dev/null 2>&1
+check "the same frame gives another look" same_files "$work/again/oil_strips" "$work/looks/oil_strips"
+check "the same frame gives another look" cmp -s "$work/again/oil.toml" "$work/looks/oil.toml"
+
+# Nobody's work is written over, and nothing is left half done.
+echo mine >"$work/mine.toml"
+refused 2 "is there already" "$kagefude" look new "$frame" -o "$work/mine.toml" --preset cel
+check "the look was touched" [ "$(cat "$work/mine.toml")" = mine ]
+mkdir "$work/strips_only_strips"
+refused 2 "is there already" "$kagefude" look new "$frame" -o "$work/strips_only.toml" --preset cel
+echo kept >"$work/looks/cel_strips/own.txt"
+check "--force fails" "$kagefude" look new "$frame" -o "$work/looks/cel.toml" --preset cel --force
+check "--force takes others' files away" [ "$(cat "$work/looks/cel_strips/own.txt")" = kept ]
+refused 1 "no such" "$kagefude" look new "$work/none.exr" -o "$work/none.toml" --preset cel
+refused 2 "preset" "$kagefude" look new "$frame" -o "$work/none.toml" --preset acrylic
+refused 2 "no key contrst" "$kagefude" look new "$frame" -o "$work/none.toml" --preset cel --set brush.contrst=1
+check "something was left" [ -z "$(find "$work" -name 'none*' -o -name '.*.new' -o -name '.*.tmp')" ]
+check "--set fails" "$kagefude" look new "$frame" -o "$work/set.toml" --preset oil --set brush.contrast=0.5
+check "--set is not in the look" grep -q "^contrast = 0.5" "$work/set.toml"
+
+# Without albedo colours come from the picture, and that is said.
+oiiotool "$frame" --ch "$(oiiotool --info -v "$frame" | sed -n 's/.*channel list: //p' | tr ',' '\n' |
+  sed 's/^ *//; s/ (.*//' | grep -v DiffCol | paste -sd,)" -o "$work/bare/shot.0001.exr" 2>/dev/null || true
+if [ -f "$work/bare/shot.0001.exr" ]; then
+  cp "$data"/shot.0001.json "$work/bare/"; cp "$data"/shot.Key.depth.0001.exr "$work/bare/"
+  "$kagefude" look new "$work/bare/shot.0001.exr" -o "$work/bare/l.toml" --preset oil >/dev/null 2>"$work/text"
+  says "$work/text" "no diffuse colour" "from the picture"
+  check "the look does not say so" grep -q "as the picture shows it" "$work/bare/l.toml"
+fi
+
+# Looks side by side.
+"$kagefude" sheet --looks "$work/looks" "$frame" -o "$work/sheet.png" 2>/dev/null
+check "the sheet is not three by two" [ "$(oiiotool --info "$work/sheet.png" | grep -o '[0-9]* x *[0-9]*' | head -1 |
+  awk '{print ($1 > $3) ? "wide" : "high"}')" = wide ]
+refused 2 "no look" "$kagefude" sheet --looks "$data" "$frame" -o "$work/s.png"
+refused 2 "leave the look out" "$kagefude" sheet --looks "$work/looks" "$work/looks/oil.toml" "$frame" -o "$work/s.png"
+refused 2 "needs a look and a frame" "$kagefude" sheet "$frame" -o "$work/s.png"
+
+# What in a look does nothing.
+printf '[brush]\npole_fade = 1\n[tone]\ngamma = 1.5\n[[style]]\nobject = "Pera"\n' >"$work/idle.toml"
+check "idle keys end well" [ "$(exit_code "$kagefude" look check "$work/idle.toml" "$frame")" = 1 ]
+says "$work/log" "brush.pole_fade changes nothing" "style 1 fits nothing" "2 of its entries"
+check "tone.gamma is called idle" [ "$(grep -c gamma "$work/log")" = 0 ]
+printf '[tone]\ngamma = 1.5\n' >"$work/busy.toml"
+check "a busy key is called idle" "$kagefude" look check "$work/busy.toml" "$frame"
+
+# Strips from pictures and palettes.
+"$kagefude" strip make "$work/from.png" --from "$work/oil.png" --patch 20,20,120,60 >/dev/null
+check "the picture's strip is not fit to paint with" "$kagefude" strip check "$work/from.png"
+refused 2 "is not inside" "$kagefude" strip make "$work/x.png" --from "$work/oil.png" --patch 20,20,9000,60
+refused 2 "come from the picture" "$kagefude" strip make "$work/x.png" --from "$work/oil.png" --set bristle=1
+refused 1 "cannot be read\|no such" "$kagefude" strip make "$work/x.png" --from "$work/none.jpg"
+printf 'GIMP Palette\n#\n43 29 56 dark\n242 227 194 light\n138 51 36 mid\n' >"$work/p.gpl"
+"$kagefude" strip make "$work/palette.png" --palette "$work/p.gpl" --set hue_shift=20 >/dev/null
+check "the palette's strip is not fit to paint with" "$kagefude" strip check "$work/palette.png"
+"$kagefude" strip make "$work/colours.png" --palette "#2b1d38,#8a3324,#f2e3c2" --set hue_shift=20 >/dev/null
+check "the same colours give another strip" cmp -s "$work/palette.png" "$work/colours.png"
+printf 'GIMP Palette\n#\n43 29\n' >"$work/bad.gpl"
+refused 1 "line 3" "$kagefude" strip make "$work/x.png" --palette "$work/bad.gpl"
+refused 2 "is no colour" "$kagefude" strip make "$work/x.png" --palette "#12,#345678"
+check "a refused strip was written" [ ! -e "$work/x.png" ]
+summary
