@@ -10,6 +10,7 @@
 #include "passes/edges/behind_paint.h"
 #include "passes/edges/inner_edges.h"
 #include "passes/edges/outline.h"
+#include "passes/edges/painted_edges.h"
 
 namespace kagefude {
 namespace {
@@ -99,6 +100,22 @@ void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {
   const ColourViews beauty{planes.beauty.x, planes.beauty.y, planes.beauty.z, planes.alpha};
   layOverPicture({brush.r.view(), brush.g.view(), brush.b.view(), brush.a.view()}, beauty,
                  coverageRanks(planes));
+}
+
+void paintStyleEdges(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
+                     const BrushResult& own, const ColourViews& ground, BrushResult& brush) {
+  const Floats distance = cameraDistance(plan, planes);
+  const std::vector<CoverageRank> ranks = coverageRanks(planes);
+  const Labels ids = ranks.empty() ? Labels() : ownCryptomatteIds(plan, planes.objectId);
+  const EdgePaint paint{{own.r, own.g, own.b, own.a},
+                        styled.anchorIndex,
+                        styled.edges,
+                        distance,
+                        brush.grain,
+                        ids,
+                        ranks,
+                        ground};
+  paintEdges(paint, {brush.r, brush.g, brush.b, brush.a});
 }
 
 Floats drawStyleOutlines(const FramePlan& plan, const FramePlanes& planes,

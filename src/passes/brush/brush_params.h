@@ -30,6 +30,9 @@ struct BrushParams {
   float pointBlend = 0.6f;
   float smoothNormals = 0;
   bool diagnostics = false;
+  /// Whether the strokes' grain is kept beside their colours, mean 0 and variance 1: that of
+  /// object grain, else the root of the luminance against its row's mean, in tenths. 0 where
+  /// nothing is painted.
   bool keepsGrain = false;
 };
 

@@ -29,4 +29,15 @@ inline constexpr Parameter tintParameters[] = {
 inline constexpr ParameterTable tintTable{"tint", "Warm light and cool shadow.", "ours",
                                           tintParameters};
 
+/// Of Rec. 709.
+inline float luminanceOf(const V3f& colour) {
+  return 0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z;
+}
+
+/// **[ours]** A paint's colour under a light of colour `light` (luminance 1) at a tone 0..1: times
+/// 1 + light_share (light - 1), then times 1 + s (shadow - 1), s = shadow_strength (1 - tone), the
+/// shadow's colour at luminance 1; after each as bright as before, but for colours that the other
+/// takes to less than a quarter. A tone that is NaN counts as 0.
+V3f tinted(const V3f& colour, const V3f& light, float tone, const TintParams& params);
+
 }  // namespace kagefude
