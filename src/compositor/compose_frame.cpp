@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "compositor/finish_picture.h"
+#include "compositor/frame_ground.h"
 #include "compositor/frame_tint.h"
 #include "compositor/frame_tone.h"
 #include "compositor/output_layers.h"
@@ -55,7 +56,8 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   lap(clock, "styles and tone");
   if (sink) sink->number("brush.tone", tone);
   const bool diagnostics = sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");
-  BrushResult brush = paintStyles(strips, planes, tone, styled, surfaces, diagnostics);
+  BrushResult brush =
+      paintStyles(strips, planes, tone, styled, surfaces, diagnostics, keepsGrain(look, styled));
   lap(clock, "brush");
   if (sink) {
     sink->number("brush.angle", brush.angle);

@@ -47,7 +47,7 @@ void layOnGround(const FinishInput& in, BrushResult& brush) {
   const PaperParams& paper = in.look.passes.paper;
   const PaperTooth tooth = frameTooth(in);
   if (paper.strength > 0.0f) {
-    depositPaint(viewsOf(brush), in.tone, tooth.height, paper);
+    depositPaint(viewsOf(brush), in.tone, brush.grain, tooth.height, paper);
     shadeRelief(viewsOf(brush), tooth.slope, paper);
   }
   const bool edges = paintsEdges(in.styled);

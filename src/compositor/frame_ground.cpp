@@ -113,7 +113,7 @@ ColourPlanes skyGround(const FinishInput& in, View<const float> alpha, const Pap
   const PaperParams& paper = in.look.passes.paper;
   if (!(paper.strength > 0.0f) && strip.opaque) return sky;
   if (paper.strength > 0.0f) {
-    depositPaint(viewsOf(sky), tone, tooth.height, paper);
+    depositPaint(viewsOf(sky), tone, {}, tooth.height, paper);
     shadeRelief(viewsOf(sky), tooth.slope, paper);
   }
   ColourPlanes under = flatGround(in, colourOf(paper.colour), tooth);
@@ -127,6 +127,10 @@ bool usesGround(const Look& look, const StyledSurfaces& styled) {
   const Background background = look.output.background;
   return (background != Background::beauty && background != Background::transparent) ||
          look.passes.paper.strength > 0.0f || paintsEdges(styled);
+}
+
+bool keepsGrain(const Look& look, const StyledSurfaces& styled) {
+  return look.passes.paper.strength > 0.0f || paintsEdges(styled);
 }
 
 PaperTooth frameTooth(const FinishInput& in) {

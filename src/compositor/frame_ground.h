@@ -1,6 +1,7 @@
 #pragma once
 
 #include "compositor/finish_picture.h"
+#include "passes/edges/coverage_blend.h"
 #include "passes/ground/paper_tooth.h"
 
 namespace kagefude {
@@ -10,6 +11,9 @@ namespace kagefude {
 /// Whether the look's paint lies on a ground of its own or ends by [edges]; else it is laid over
 /// the beauty, or nothing, as it is.
 bool usesGround(const Look& look, const StyledSurfaces& styled);
+
+/// Whether what lays paint on its ground needs the grain of the strokes.
+bool keepsGrain(const Look& look, const StyledSurfaces& styled);
 
 /// The paper's surface at every pixel; empty planes where the look has no paper. Fixed to the world
 /// only where the camera is known.

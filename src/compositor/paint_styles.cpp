@@ -38,11 +38,10 @@ Plane<uint16_t> onlyGroup(View<const uint16_t> index, const std::vector<size_t>&
 
 BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<const float> tone,
                         const StyledSurfaces& styled, View<const uint32_t> surfaces,
-                        bool diagnostics) {
+                        bool diagnostics, bool grain) {
   BrushResult result;
   const Vec3Plane smooth = strokeNormals(planes, styled, surfaces);
   const Vec3View normals = smooth.empty() ? planes.normal.view() : smooth.view();
-  const bool grain = paintsEdges(styled);
   const auto paint = [&](View<const uint16_t> index, BrushParams params, bool keepOthers) {
     params.diagnostics = diagnostics;
     params.keepsGrain = grain;

@@ -9,9 +9,9 @@ namespace kagefude {
 
 /// Lays the strokes of every style (see applyBrush): styles whose brush parameters are equal in one
 /// go, the others one after the other. `surfaces` bound the smoothing of normals (strokeNormals).
-/// `diagnostics` asks for the angle and repeat planes; the grain is there where edges need it.
+/// `diagnostics` asks for the angle and repeat planes, `grain` for that of the strokes.
 BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<const float> tone,
                         const StyledSurfaces& styled, View<const uint32_t> surfaces,
-                        bool diagnostics);
+                        bool diagnostics, bool grain);
 
 }  // namespace kagefude

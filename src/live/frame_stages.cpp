@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "compositor/finish_picture.h"
+#include "compositor/frame_ground.h"
 #include "compositor/frame_tint.h"
 #include "compositor/frame_tone.h"
 #include "compositor/paint_styles.h"
@@ -131,9 +132,10 @@ void FrameStages::paint(const Look& look, const Made<StripSet>& strips, const Fr
     return adjusted;
   });
 
-  strokes.add(frame.tone.version).add(frame.surfaces.version).add(paintsEdges(styled));
+  strokes.add(frame.tone.version).add(frame.surfaces.version).add(keepsGrain(look, styled));
   frame.strokes = strokes_.at(run, "strokes", std::move(strokes), [&] {
-    return paintStyles(*strips, *frame.planes, *frame.tone, styled, frame.surfaces->labels, false);
+    return paintStyles(*strips, *frame.planes, *frame.tone, styled, frame.surfaces->labels, false,
+                       keepsGrain(look, styled));
   });
 
   StageKey picture = keyOf(

@@ -71,14 +71,14 @@ class EdgePainter {
     const PaintedEdgeParams& other = paramsAt(border.other);
     const PaintedEdgeParams& front = border.inFront ? own : other;
     const PixelAt beyond = mirrored(x, y, border);
-    const float grain = borderGrain(x, y, border, beyond);
+    const float grain = borderGrain(x, y, border, beyond, front);
     const float melted = front.lost > 0.0f ? lostShare(border, front) : 0.0f;
     const bool moves = front.rough > 0.0f || melted > 0.0f;
     // Distance into the own side, past the border where the grain has moved it.
     const float shift = front.rough * (grain + front.overrun);
     const float inside = border.distance + (border.inFront ? shift : -shift);
-    const float rimOwn = rimDensity(own, inside, melted, grain);
-    const float gap = dryShare(own, border.distance, x, y);
+    const float rimOwn = border.inFront ? rimDensity(own, inside, melted, grain) : 1.0f;
+    const float gap = border.inFront ? dryShare(own, border.distance, x, y) : 0.0f;
     if (!moves && rimOwn == 1.0f && gap == 0.0f) return;
 
     Rgba colour{paint.r(x, y), paint.g(x, y), paint.b(x, y), paint.a(x, y)};
@@ -89,8 +89,8 @@ class EdgePainter {
         colour = pooled(colour, rimOwn);
       } else {
         const Rgba here = pooled(colourAt(x, y), rimOwn);
-        const Rgba there =
-            pooled(colourAt(beyond.x, beyond.y), rimDensity(other, -inside, melted, grain));
+        const float rimOther = border.inFront ? 1.0f : rimDensity(other, -inside, melted, grain);
+        const Rgba there = pooled(colourAt(beyond.x, beyond.y), rimOther);
         colour = here * share + there * (1.0f - share);
       }
     } else {
@@ -207,11 +207,30 @@ class EdgePainter {
     return same ? at : border.other;
   }
 
-  float borderGrain(int x, int y, const Border& border, const PixelAt& beyond) const {
+  /// Shape of the strokes in front, -1..1: mostly that of the border, seen as coarsely as it is
+  /// moved, or it would fray; and a little of the pixel's own bristles.
+  float borderGrain(int x, int y, const Border& border, const PixelAt& beyond,
+                    const PaintedEdgeParams& front) const {
     const PixelAt at = border.inFront ? PixelAt{x, y} : beyond;
     const PixelAt rim = border.inFront ? border.own : border.other;
-    const float grain = (in_.grain(at.x, at.y) + in_.grain(rim.x, rim.y)) * (0.5f / 1.5f);
+    const int step = std::max(1, static_cast<int>(front.rough * 0.5f + 0.5f));
+    constexpr float ofBorder = 1.1f, ofPixel = 0.2f;
+    const float grain = ofBorder * meanGrain(rim, step) + ofPixel * in_.grain(at.x, at.y);
     return grain > -1.0f ? (grain < 1.0f ? grain : 1.0f) : -1.0f;
+  }
+
+  /// Mean of a thing's grain at nine places round a pixel, `step` apart.
+  float meanGrain(const PixelAt& at, int step) const {
+    const uint16_t own = in_.things(at.x, at.y);
+    float sum = 0, count = 0;
+    for (int dy = -step; dy <= step; dy += step)
+      for (int dx = -step; dx <= step; dx += step) {
+        if (!in_.things.contains(at.x + dx, at.y + dy) || in_.things(at.x + dx, at.y + dy) != own)
+          continue;
+        sum += in_.grain(at.x + dx, at.y + dy);
+        count += 1.0f;
+      }
+    return sum / count;
   }
 
   /// Mean of a thing's paint, over its ground, in the 3x3 round one of its pixels.

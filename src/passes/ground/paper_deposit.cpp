@@ -4,10 +4,10 @@
 
 namespace kagefude {
 
-float depositShare(float height, float tone, const PaperParams& params) {
-  constexpr float edge = 0.125f;
+float depositShare(float height, float tone, float grain, const PaperParams& params) {
+  constexpr float edge = 0.25f, byGrain = 0.1f;
   const float known = tone > 0.0f ? (tone < 1.0f ? tone : 1.0f) : 0.0f;
-  const float load = params.pressure + params.byTone * (0.5f - known);
+  const float load = params.pressure + params.byTone * (0.5f - known) + byGrain * grain;
   const float pressed = load > 0.0f ? (load < 1.0f ? load : 1.0f) : 0.0f;
   // From wholly bare at load 0 to wholly covered at load 1.
   const float excess = height - (1.0f - pressed) * (1.0f + 2.0f * edge) + edge;
@@ -17,12 +17,13 @@ float depositShare(float height, float tone, const PaperParams& params) {
   return 1.0f - params.strength * (1.0f - covered);
 }
 
-void depositPaint(const PaintViews& paint, View<const float> tone, View<const float> height,
-                  const PaperParams& params) {
+void depositPaint(const PaintViews& paint, View<const float> tone, View<const float> grain,
+                  View<const float> height, const PaperParams& params) {
   parallelRows(paint.a.height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < paint.a.width; ++x) {
-        const float share = depositShare(height(x, y), tone(x, y), params);
+        const float stroke = grain.empty() ? 0.0f : grain(x, y);
+        const float share = depositShare(height(x, y), tone(x, y), stroke, params);
         paint.r(x, y) *= share;
         paint.g(x, y) *= share;
         paint.b(x, y) *= share;
@@ -32,7 +33,7 @@ void depositPaint(const PaintViews& paint, View<const float> tone, View<const fl
 }
 
 float reliefFactor(float slope, const PaperParams& params) {
-  return 1.0f + 0.3f * params.relief * slope;
+  return 1.0f + 0.2f * params.relief * slope;
 }
 
 void shadeRelief(const PaintViews& picture, View<const float> slope, const PaperParams& params) {

@@ -42,9 +42,15 @@ class GradientNoise {
   int cells_;
 };
 
-float roughAt(const GradientNoise& coarse, const GradientNoise& fine, float u, float v) {
+/// Noise of two grains, one and half of one to a cell.
+struct ToothNoise {
+  GradientNoise coarse, fine, finest;
+};
+
+float roughAt(const ToothNoise& noise, float u, float v) {
   // A bump is half of a wave, so one grain is half a cell wide.
-  return coarse.at(0.5f * u, 0.5f * v) + 0.45f * fine.at(u, v);
+  return noise.coarse.at(0.5f * u, 0.5f * v) + 0.5f * noise.fine.at(u, v) +
+         0.3f * noise.finest.at(2.0f * u, 2.0f * v);
 }
 
 /// A thread's height over its width and along it, where it is above or below the crossing one.
@@ -54,34 +60,34 @@ float threadHeight(float across, float along, bool above) {
   return round * (above ? 0.55f + 0.45f * bow : 0.45f - 0.35f * bow);
 }
 
-float canvasAt(const GradientNoise& coarse, const GradientNoise& fine, float u, float v) {
+float canvasAt(const ToothNoise& noise, float u, float v) {
   // Threads wander a little and are of unequal thickness.
-  const float x = u + 0.2f * coarse.at(0.5f * v, 0.5f * u);
-  const float y = v + 0.2f * coarse.at(0.5f * u, 0.5f * v);
+  const float x = u + 0.2f * noise.coarse.at(0.5f * v, 0.5f * u);
+  const float y = v + 0.2f * noise.coarse.at(0.5f * u, 0.5f * v);
   const bool warpAbove = (static_cast<int>(u + 64) + static_cast<int>(v + 64)) % 2 == 0;
   const float warp = threadHeight(x, y, warpAbove), weft = threadHeight(y, x, !warpAbove);
-  return (warp > weft ? warp : weft) + 0.12f * fine.at(u, v);
+  return (warp > weft ? warp : weft) + 0.12f * noise.fine.at(u, v);
 }
 
-float laidAt(const GradientNoise& coarse, const GradientNoise& fine, float u, float v) {
+float laidAt(const ToothNoise& noise, float u, float v) {
   constexpr float chain = 16;
-  const float line = sinCosTurns(v + 0.2f * coarse.at(0.5f * u, 0.5f * v)).cos;
+  const float line = sinCosTurns(v + 0.2f * noise.coarse.at(0.5f * u, 0.5f * v)).cos;
   const float across = u / chain - std::floor(u / chain);
-  const float chains = across < 0.06f ? -0.5f : 0.0f;
-  return 0.5f * line + chains + 0.9f * fine.at(u, v) + 0.6f * coarse.at(0.5f * u, 0.5f * v);
+  const float chains = across < 0.06f ? -0.2f : 0.0f;
+  return 0.3f * line + chains + 0.3f * noise.finest.at(2.0f * u, 2.0f * v) +
+         0.9f * noise.fine.at(u, v) + 0.6f * noise.coarse.at(0.5f * u, 0.5f * v);
 }
 
-float heightAt(PaperParams::Kind kind, const GradientNoise& coarse, const GradientNoise& fine,
-               float u, float v) {
+float heightAt(PaperParams::Kind kind, const ToothNoise& noise, float u, float v) {
   switch (kind) {
     case PaperParams::Kind::canvas:
-      return canvasAt(coarse, fine, u, v);
+      return canvasAt(noise, u, v);
     case PaperParams::Kind::laid:
-      return laidAt(coarse, fine, u, v);
+      return laidAt(noise, u, v);
     case PaperParams::Kind::rough:
       break;
   }
-  return roughAt(coarse, fine, u, v);
+  return roughAt(noise, u, v);
 }
 
 /// Turns heights into the shares of the tile that lie below them.
@@ -115,13 +121,13 @@ ToothTile::ToothTile(const PaperParams& params) {
       std::max(2 * step, static_cast<int>(static_cast<float>(grains) * params.grain + 0.5f));
   texelsPerGrain_ = static_cast<float>(side) / static_cast<float>(grains);
   Floats raw(side, side);
-  const GradientNoise coarse(0x70617065u, grains / 2), fine(0x746f6f74u, grains);
+  const ToothNoise noise{
+      {0x70617065u, grains / 2}, {0x746f6f74u, grains}, {0x66696265u, 2 * grains}};
   parallelRows(side, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < side; ++x)
-        raw(x, y) =
-            heightAt(params.kind, coarse, fine, (static_cast<float>(x) + 0.5f) / texelsPerGrain_,
-                     (static_cast<float>(y) + 0.5f) / texelsPerGrain_);
+        raw(x, y) = heightAt(params.kind, noise, (static_cast<float>(x) + 0.5f) / texelsPerGrain_,
+                             (static_cast<float>(y) + 0.5f) / texelsPerGrain_);
   });
   slope_ = Floats(side, side);
   height_ = std::move(raw);

@@ -16,19 +16,19 @@ PaperParams paper(float strength, float pressure, float byTone) {
 }
 
 TEST(PaperDeposit, HandValues) {
-  // Half the paper is covered; the step runs from 3/8 to 5/8, half of it at 1/2.
-  EXPECT_FLOAT_EQ(depositShare(0.375f, 0.5f, paper(1, 0.5f, 0)), 0.0f);
-  EXPECT_FLOAT_EQ(depositShare(0.5f, 0.5f, paper(1, 0.5f, 0)), 0.5f);
-  EXPECT_FLOAT_EQ(depositShare(0.625f, 0.5f, paper(1, 0.5f, 0)), 1.0f);
+  // Half the paper is covered; the step runs from 1/4 to 3/4, half of it at 1/2.
+  EXPECT_FLOAT_EQ(depositShare(0.25f, 0.5f, 0, paper(1, 0.5f, 0)), 0.0f);
+  EXPECT_FLOAT_EQ(depositShare(0.5f, 0.5f, 0, paper(1, 0.5f, 0)), 0.5f);
+  EXPECT_FLOAT_EQ(depositShare(0.75f, 0.5f, 0, paper(1, 0.5f, 0)), 1.0f);
   // Half the strength takes off half of it.
-  EXPECT_FLOAT_EQ(depositShare(0.375f, 0.5f, paper(0.5f, 0.5f, 0)), 0.5f);
+  EXPECT_FLOAT_EQ(depositShare(0.25f, 0.5f, 0, paper(0.5f, 0.5f, 0)), 0.5f);
 }
 
 TEST(PaperDeposit, WithoutPressureNothingSticksAndFullPressureReachesTheDeepestHollow) {
   for (const float height : {0.0f, 0.5f, 1.0f}) {
-    EXPECT_EQ(depositShare(height, 0.5f, paper(1, 0, 0)), 0.0f);
-    EXPECT_EQ(depositShare(height, 0.5f, paper(1, 1, 0)), 1.0f);
-    EXPECT_EQ(depositShare(height, 0.5f, paper(0, 0, 0)), 1.0f);
+    EXPECT_EQ(depositShare(height, 0.5f, 0, paper(1, 0, 0)), 0.0f);
+    EXPECT_EQ(depositShare(height, 0.5f, 0, paper(1, 1, 0)), 1.0f);
+    EXPECT_EQ(depositShare(height, 0.5f, 0, paper(0, 0, 0)), 1.0f);
   }
 }
 
@@ -41,12 +41,18 @@ TEST(PaperDeposit, DarkTonesPressHarder) {
             depositShare(0.4f, 0.0f, params));
 }
 
+TEST(PaperDeposit, ThickStrokesFillDeeperHollows) {
+  const PaperParams params = paper(1, 0.5f, 0);
+  // A grain of 1 presses by a tenth harder: heights count 0.15 more.
+  EXPECT_NEAR(depositShare(0.35f, 0.5f, 1, params), depositShare(0.5f, 0.5f, 0, params), 1e-6f);
+}
+
 TEST(PaperDeposit, PaintStaysAssociatedAndReliefKeepsAlpha) {
   Floats r(2, 1, 0.8f), g(2, 1, 0.4f), b(2, 1, 0.2f), a(2, 1, 0.8f), tone(2, 1, 0.5f), height(2, 1);
   height(0, 0) = 0.5f;
   height(1, 0) = 1.0f;
   const PaintViews paint{r, g, b, a};
-  depositPaint(paint, tone, height, paper(1, 0.5f, 0));
+  depositPaint(paint, tone, {}, height, paper(1, 0.5f, 0));
   EXPECT_FLOAT_EQ(r(0, 0), 0.4f);
   EXPECT_FLOAT_EQ(a(0, 0), 0.4f);
   EXPECT_FLOAT_EQ(g(1, 0), 0.4f);
