@@ -47,12 +47,14 @@ void layOnGround(const FinishInput& in, BrushResult& brush) {
   const PaperParams& paper = in.look.passes.paper;
   const PaperTooth tooth = frameTooth(in);
   if (paper.strength > 0.0f) {
-    depositPaint(viewsOf(brush), in.tone, brush.grain, tooth.height, paper);
-    shadeRelief(viewsOf(brush), tooth.slope, paper);
+    depositPaint(viewsOf(brush), in.tone, brush.grain, {tooth.height, tooth.slope}, paper);
   }
   const bool edges = paintsEdges(in.styled);
-  const BrushResult own = edges ? cloneColours(brush) : BrushResult();
-  blendEdges(in.plan, in.planes, brush);
+  BrushResult own;
+  if (edges)
+    own = keepBeforeEdges(in.plan, in.planes, brush);
+  else
+    blendEdges(in.plan, in.planes, brush);
   const ColourPlanes ground = frameGround(in, brush.a, tooth);
   const ColourViews behind{ground.r, ground.g, ground.b, ground.a};
   if (edges) paintStyleEdges(in.plan, in.planes, in.styled, own, behind, brush);

@@ -11,6 +11,9 @@ namespace kagefude {
 /// it; else leaves the strokes as they are.
 void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
 
+/// The same; gives the colours as they were before.
+BrushResult keepBeforeEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
+
 /// Blends the strokes where edges run inside an object, and between objects where the frame has no
 /// coverage. `joins` are those of its surfaces.
 void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<const uint8_t> joins,

@@ -112,10 +112,8 @@ ColourPlanes skyGround(const FinishInput& in, View<const float> alpha, const Pap
   ColourPlanes sky = paintSky(strip, tone, view, params);
   const PaperParams& paper = in.look.passes.paper;
   if (!(paper.strength > 0.0f) && strip.opaque) return sky;
-  if (paper.strength > 0.0f) {
-    depositPaint(viewsOf(sky), tone, {}, tooth.height, paper);
-    shadeRelief(viewsOf(sky), tooth.slope, paper);
-  }
+  if (paper.strength > 0.0f)
+    depositPaint(viewsOf(sky), tone, {}, {tooth.height, tooth.slope}, paper);
   ColourPlanes under = flatGround(in, colourOf(paper.colour), tooth);
   layOver(viewsOf(sky), viewsOf(std::as_const(under)));
   return sky;

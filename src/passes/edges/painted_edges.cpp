@@ -173,7 +173,8 @@ class EdgePainter {
   /// of the pixels on both sides.
   float withinPixels(int x, int y, const Border& border) const {
     if (in_.coverage.empty()) return 0.5f;
-    const uint32_t id = in_.coverageIds(x, y);
+    const uint16_t own = in_.things(x, y);
+    const uint32_t id = own == 0 || own > in_.coverageIds.size() ? 0u : in_.coverageIds[own - 1u];
     return std::clamp(covered(id, border.own) + covered(id, border.other) - 0.5f, 0.0f, 1.5f);
   }
 
@@ -192,10 +193,15 @@ class EdgePainter {
     const uint16_t own = in_.things(border.own.x, border.own.y);
     const uint16_t other = in_.things(border.other.x, border.other.y);
     if (own == 0 || other == 0) return other == 0;
-    if (in_.distance.empty()) return own < other;
-    const float here = in_.distance(border.own.x, border.own.y);
-    const float there = in_.distance(border.other.x, border.other.y);
+    const float here = distanceOf(border.own), there = distanceOf(border.other);
     return here != there ? here < there : own < other;
+  }
+
+  /// Squared where positions tell it; only compared.
+  float distanceOf(const PixelAt& at) const {
+    if (in_.position.empty()) return in_.distance.empty() ? 0.0f : in_.distance(at.x, at.y);
+    const V3f d = in_.position(at.x, at.y) - in_.eye;
+    return d.dot(d);
   }
 
   /// The pixel as far beyond the border as (x, y) is before it; the one at the border where that is
@@ -299,6 +305,57 @@ void requireSizes(const EdgePaint& in, const PaintViews& paint) {
     requireSize("painted edges", plane, width, height);
 }
 
+/// Squares of the picture that edges may reach: those that hold a border, and as many round them as
+/// the reach takes. Pixels in them are 1.
+constexpr int square = 32;
+
+Bytes squaresInReach(View<const uint8_t> borders, float reach) {
+  const int across = (borders.width + square - 1) / square;
+  const int down = (borders.height + square - 1) / square;
+  Bytes held(across, down, uint8_t{0});
+  parallelRows(down, 1, [&](int first, int) {
+    const int end = std::min((first + 1) * square, borders.height);
+    for (int y = first * square; y < end; ++y)
+      for (int x = 0; x < borders.width; ++x)
+        if (borders(x, y)) held(x / square, first) = 1;
+  });
+  const int far = static_cast<int>(reach) / square + 1;
+  Bytes inReach(borders.width, borders.height, uint8_t{0});
+  parallelRows(down, 1, [&](int row, int) {
+    for (int column = 0; column < across; ++column) {
+      bool any = false;
+      for (int v = std::max(row - far, 0); v <= std::min(row + far, down - 1) && !any; ++v)
+        for (int u = std::max(column - far, 0); u <= std::min(column + far, across - 1); ++u)
+          any = any || held(u, v);
+      if (!any) continue;
+      const int left = column * square, right = std::min(left + square, borders.width);
+      for (int y = row * square; y < std::min((row + 1) * square, borders.height); ++y)
+        std::fill(inReach.row(y) + left, inReach.row(y) + right, uint8_t{1});
+    }
+  });
+  return inReach;
+}
+
+Bytes findBorders(const EdgePainter& painter, View<const uint16_t> things) {
+  const int width = things.width, height = things.height;
+  Bytes borders(width, height);
+  parallelRows(height, [&](int first, int end) {
+    for (int y = first; y < end; ++y) {
+      const uint16_t* const own = things.row(y);
+      const uint16_t* const above = things.row(std::max(y - 1, 0));
+      const uint16_t* const below = things.row(std::min(y + 1, height - 1));
+      uint8_t* const out = borders.row(y);
+      for (int x = 0; x < width; ++x) {
+        const uint16_t left = own[x > 0 ? x - 1 : 0], right = own[x + 1 < width ? x + 1 : x];
+        const bool differs =
+            (own[x] != left) | (own[x] != right) | (own[x] != above[x]) | (own[x] != below[x]);
+        out[x] = differs && painter.isAtBorder(x, y) ? 1 : 0;
+      }
+    }
+  });
+  return borders;
+}
+
 }  // namespace
 
 void paintEdges(const EdgePaint& in, const PaintViews& paint) {
@@ -306,23 +363,19 @@ void paintEdges(const EdgePaint& in, const PaintViews& paint) {
   const EdgePainter painter(in);
   if (!(painter.reach() > 0.0f)) return;
   const int width = in.things.width, height = in.things.height;
-  Bytes kinds(width, height);
-  parallelRows(height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < width; ++x) kinds(x, y) = painter.isAtBorder(x, y) ? 1 : 0;
-  });
-  Bytes wanted(width, height, uint8_t{1});
+  const float reach = painter.reach() + 1.5f;
+  const Bytes borders = findBorders(painter, in.things);
+  const Bytes wanted = squaresInReach(borders, reach);
   SiteSearch search;
-  search.kinds = kinds;
+  search.kinds = borders;
   search.wantedKinds = wanted;
   Labels squared(width, height, noSite), nearest(width, height, noSite);
   findNearestSites(search, findLabelBoxes(search), squared, nearest);
-  const float reach = painter.reach() + 1.5f;
   const float most = reach * reach;
   parallelRows(height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < width; ++x)
-        if (nearest(x, y) != noSite && static_cast<float>(squared(x, y)) <= most)
+        if (wanted(x, y) && nearest(x, y) != noSite && static_cast<float>(squared(x, y)) <= most)
           painter.paint(x, y, nearest(x, y), paint);
   });
 }

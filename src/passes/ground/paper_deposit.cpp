@@ -18,15 +18,16 @@ float depositShare(float height, float tone, float grain, const PaperParams& par
 }
 
 void depositPaint(const PaintViews& paint, View<const float> tone, View<const float> grain,
-                  View<const float> height, const PaperParams& params) {
+                  const ToothViews& tooth, const PaperParams& params) {
   parallelRows(paint.a.height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < paint.a.width; ++x) {
         const float stroke = grain.empty() ? 0.0f : grain(x, y);
-        const float share = depositShare(height(x, y), tone(x, y), stroke, params);
-        paint.r(x, y) *= share;
-        paint.g(x, y) *= share;
-        paint.b(x, y) *= share;
+        const float share = depositShare(tooth.height(x, y), tone(x, y), stroke, params);
+        const float shaded = share * reliefFactor(tooth.slope(x, y), params);
+        paint.r(x, y) *= shaded;
+        paint.g(x, y) *= shaded;
+        paint.b(x, y) *= shaded;
         paint.a(x, y) *= share;
       }
   });

@@ -11,35 +11,43 @@ namespace {
 
 /// Texels on a side, about.
 constexpr float wantedSize = 512;
+/// Grains from one chain line of laid paper to the next.
+constexpr float chainLines = 16;
 
 float eased(float t) { return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f); }
 
-/// Gradient noise (Perlin 2002) on a lattice that repeats after `cells`; about -0.7..0.7.
+/// Gradient noise (Perlin 2002) on a lattice that repeats after `cells`; about -0.7..0.7. Asked for
+/// at x, y >= 0.
 class GradientNoise {
  public:
-  GradientNoise(uint32_t seed, int cells) : seed_(seed), cells_(cells) {}
+  GradientNoise(uint32_t seed, int cells)
+      : cells_(cells), ways_(static_cast<size_t>(cells) * static_cast<size_t>(cells)) {
+    for (size_t i = 0; i < ways_.size(); ++i) {
+      const uint32_t bits = scrambled(seed ^ scrambled(static_cast<uint32_t>(i)));
+      ways_[i] = sinCosTurns(static_cast<float>(bits >> 8) * (1.0f / 16777216.0f));
+    }
+  }
 
   float at(float x, float y) const {
     const int i = static_cast<int>(x), j = static_cast<int>(y);
     const float fx = x - static_cast<float>(i), fy = y - static_cast<float>(j);
     const float sx = eased(fx), sy = eased(fy);
-    const float top =
-        corner(i, j, fx, fy) + (corner(i + 1, j, fx - 1, fy) - corner(i, j, fx, fy)) * sx;
-    const float bottom = corner(i, j + 1, fx, fy - 1) +
-                         (corner(i + 1, j + 1, fx - 1, fy - 1) - corner(i, j + 1, fx, fy - 1)) * sx;
-    return top + (bottom - top) * sy;
+    const int left = i % cells_, right = (i + 1) % cells_;
+    const SinCos *top = row(j), *bottom = row(j + 1);
+    const float a = along(top[left], fx, fy), b = along(top[right], fx - 1, fy);
+    const float c = along(bottom[left], fx, fy - 1), d = along(bottom[right], fx - 1, fy - 1);
+    const float upper = a + (b - a) * sx, lower = c + (d - c) * sx;
+    return upper + (lower - upper) * sy;
   }
 
  private:
-  float corner(int i, int j, float dx, float dy) const {
-    const auto column = static_cast<uint32_t>(i % cells_), row = static_cast<uint32_t>(j % cells_);
-    const uint32_t bits = scrambled(seed_ ^ scrambled(column ^ scrambled(row)));
-    const SinCos way = sinCosTurns(static_cast<float>(bits >> 8) * (1.0f / 16777216.0f));
-    return way.cos * dx + way.sin * dy;
+  const SinCos* row(int j) const {
+    return ways_.data() + static_cast<size_t>(j % cells_) * static_cast<size_t>(cells_);
   }
+  static float along(const SinCos& way, float dx, float dy) { return way.cos * dx + way.sin * dy; }
 
-  uint32_t seed_;
   int cells_;
+  std::vector<SinCos> ways_;
 };
 
 /// Noise of two grains, one and half of one to a cell.
@@ -70,9 +78,8 @@ float canvasAt(const ToothNoise& noise, float u, float v) {
 }
 
 float laidAt(const ToothNoise& noise, float u, float v) {
-  constexpr float chain = 16;
   const float line = sinCosTurns(v + 0.2f * noise.coarse.at(0.5f * u, 0.5f * v)).cos;
-  const float across = u / chain - std::floor(u / chain);
+  const float across = u / chainLines - std::floor(u / chainLines);
   const float chains = across < 0.06f ? -0.2f : 0.0f;
   return 0.3f * line + chains + 0.3f * noise.finest.at(2.0f * u, 2.0f * v) +
          0.9f * noise.fine.at(u, v) + 0.6f * noise.coarse.at(0.5f * u, 0.5f * v);
@@ -114,11 +121,12 @@ void rankHeights(Floats& heights) {
 }  // namespace
 
 ToothTile::ToothTile(const PaperParams& params) {
-  // A whole number of threads, of lattice cells and of chain lines goes into the tile.
-  constexpr int step = 16;
-  const int grains = std::max(step, static_cast<int>(wantedSize / params.grain) / step * step);
-  const int side =
-      std::max(2 * step, static_cast<int>(static_cast<float>(grains) * params.grain + 0.5f));
+  // A whole number of threads and lattice cells goes into the tile, and of chain lines unless they
+  // are far apart.
+  const int wanted = static_cast<int>(wantedSize / params.grain);
+  const int step = wanted >= static_cast<int>(chainLines) ? static_cast<int>(chainLines) : 4;
+  const int grains = std::max(step, wanted / step * step);
+  const int side = static_cast<int>(static_cast<float>(grains) * params.grain + 0.5f);
   texelsPerGrain_ = static_cast<float>(side) / static_cast<float>(grains);
   Floats raw(side, side);
   const ToothNoise noise{

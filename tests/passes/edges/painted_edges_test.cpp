@@ -40,10 +40,13 @@ struct Scene {
     ownA = a.clone();
     std::vector<CoverageRank> ranks;
     if (!ids.empty()) ranks.push_back({ids, share});
-    Labels own(width, height);
-    for (size_t i = 0; i < own.view().pixels(); ++i) own.row(0)[i] = things.row(0)[i];
-    const EdgePaint in{
-        {ownR, ownG, ownB, ownA}, things, params, distance, grain, own, ranks, ground};
+    const std::vector<uint32_t> own{1, 2};
+    EdgePaint in{{ownR, ownG, ownB, ownA}, things, params};
+    in.distance = distance;
+    in.grain = grain;
+    in.coverageIds = own;
+    in.coverage = ranks;
+    in.ground = ground;
     paintEdges(in, {r, g, b, a});
   }
   bool isUntouched() const {
@@ -188,7 +191,8 @@ TEST(PaintedEdges, AThingOfOnePixelAndAFrameOfOneAreTaken) {
   const Plane<uint16_t> thing(1, 1, uint16_t{1});
   const std::vector<PaintedEdgeParams> params(1, scene.params[0]);
   const Floats own = one.clone();
-  const EdgePaint in{{own, own, own, own}, thing, params, {}, own, {}, {}, {}};
+  EdgePaint in{{own, own, own, own}, thing, params};
+  in.grain = own;
   paintEdges(in, {one, one, one, one});
   EXPECT_EQ(one(0, 0), 1.0f);
 }
