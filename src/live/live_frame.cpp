@@ -13,10 +13,10 @@ namespace {
 /// By its name, what each strip is made of.
 std::map<std::string, StageKey> stampsOf(const Look& look, const Made<Colour>& colour) {
   std::map<std::string, StageKey> stamps;
-  for (const StyleLook& style : look.styles) {
-    StageKey& stamp = stamps[style.style.strip];
+  for (const std::string& name : paintedFiles(look)) {
+    StageKey& stamp = stamps[name];
     stamp.add(colour.version).add(look.colour.strip).add(look.folder.native());
-    if (!isBuiltinStrip(style.style.strip)) addFile(stamp, look.resolve(style.style.strip));
+    if (!isBuiltinStrip(name)) addFile(stamp, look.resolve(name));
   }
   stamps[StyleParams{}.strip].add(colour.version);
   return stamps;
@@ -35,9 +35,8 @@ Made<StripSet> StripShelf::stripsOf(const Look& look, const Made<Colour>& colour
   std::map<std::string, StageKey> stamps = stampsOf(look, colour);
   // In the order of the styles, which is that of the strips' numbers.
   StageKey key;
-  for (const StyleLook& style : look.styles)
-    key.add(style.style.strip).add(stamps[style.style.strip]);
-  key.add(colour.version);
+  for (const std::string& name : paintedFiles(look)) key.add(name).add(stamps[name]);
+  key.add(colour.version).add(look.output.background == Background::picture);
   if (set_ && key == key_) return {set_, version_};
   if (run.stop.stop_requested()) throw Superseded();
   std::set<std::string> kept;

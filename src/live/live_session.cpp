@@ -119,8 +119,8 @@ void LiveSession::answer(bool whole) {
     made.stylesOnDisk = onDisk.styles.size();
     made.lightsOnDisk = onDisk.lights.size();
     strips_.clear();
-    for (const StyleLook& style : look.styles)
-      if (!isBuiltinStrip(style.style.strip)) strips_.push_back(look.resolve(style.style.strip));
+    for (const std::string& name : paintedFiles(look))
+      if (!isBuiltinStrip(name)) strips_.push_back(look.resolve(name));
     files_ = filesNow();
     std::stop_token stop;
     {
