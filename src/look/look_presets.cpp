@@ -27,7 +27,7 @@ void paintOil(StripPaintParams& p) {
   p.hardness = 0.85f;
   p.wobble = 0.35f;
   p.bristle = 0.5f;
-  p.jitter = 0.12f;
+  p.jitter = 0.1f;
   p.under = -0.08f;
   p.relief = 0.5f;
   p.hueShift = 28;
@@ -61,8 +61,8 @@ constexpr PresetKey gouacheKeys[] = {
 };
 
 constexpr TonePoint celRamp[] = {{0.00f, 0.07f, 0.60f, 1.05f},  {0.30f, 0.07f, 0.60f, 1.05f},
-                                 {0.302f, 0.03f, 0.98f, 1.05f}, {0.95f, 0.03f, 0.98f, 1.05f},
-                                 {0.952f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
+                                 {0.302f, 0.03f, 0.98f, 1.05f}, {0.972f, 0.03f, 0.98f, 1.05f},
+                                 {0.974f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
 void paintCel(StripPaintParams& p) {
   p.strokeWidth = 2;
   p.strokeLength = 200;
@@ -79,7 +79,7 @@ constexpr PresetKey celKeys[] = {
     {"outline", "crease_angle", "42", 0, "lines along edges of the form too"},
 };
 
-constexpr TonePoint inkRamp[] = {{0.00f, 0.02f, 0.58f, 0}, {0.30f, 0.12f, 0.68f, 0},
+constexpr TonePoint inkRamp[] = {{0.00f, 0.08f, 0.56f, 0}, {0.30f, 0.22f, 0.62f, 0},
                                  {0.62f, 0.46f, 0.48f, 0}, {0.85f, 0.86f, 0.11f, 0},
                                  {0.93f, 0.97f, 0.00f, 0}, {1.00f, 0.97f, 0.00f, 0}};
 void paintInk(StripPaintParams& p) {
