@@ -56,15 +56,16 @@ async function saveAll() {
 
 const viewer = new Viewer(at('canvas'), pointed, clicked, takeLight);
 let probing = false;
-async function pointed(x, y) {
-  if (probing || !state) return;
+let pointedAt = []; // nothing while the pointer is elsewhere
+async function pointed(...where) {
+  pointedAt = where;
+  if (probing || !state?.values) return;
   probing = true;
+  let found = { object: null };
   try {
-    const found = await probeShown(x, y);
-    at('probe').textContent = found.object === null ? '' : describe(found);
-  } catch {
-    at('probe').textContent = '';
-  }
+    if (where.length) found = await probeShown(...where);
+  } catch {} // no picture yet
+  at('probe').textContent = found.object === null || !pointedAt.length ? '' : describe(found);
   probing = false;
 }
 
@@ -264,6 +265,7 @@ const pictures = new Pictures(() => ({ stage, ...viewing() }), (now, pixels) => 
   complain(now.error || notice);
   showLists(now);
   if (pixels && at('against').value) showAgainst();
+  if (pixels && pointedAt.length) pointed(...pointedAt);
   showStages(now.stages);
   showScopes(now.values);
   showValues();

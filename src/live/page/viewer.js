@@ -13,7 +13,8 @@ export class Viewer {
   #y = 0;
   #full = [1, 1];
 
-  /** `pointed(x, y)` and `clicked(x, y)` get the pixel of the picture under the pointer. `taken()`
+  /** `pointed(x, y)` and `clicked(x, y)` get the pixel of the picture under the pointer; without one
+   * the pointer has left. `taken()`
    * gives what a drag does instead of moving the picture, or null: a function of the way right and
    * down, as shares of the canvas. */
   constructor(canvas, pointed, clicked, taken) {
@@ -23,6 +24,7 @@ export class Viewer {
     canvas.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });
     canvas.addEventListener('pointerdown', (event) => this.#drag(event));
     canvas.addEventListener('pointermove', (event) => pointed(...this.pixelAt(event)));
+    canvas.addEventListener('pointerleave', () => pointed());
   }
 
   /** `full` is the size of the unsampled picture, by which a proxy is laid over the same place. */
