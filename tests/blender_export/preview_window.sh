@@ -16,7 +16,7 @@ if [ -n "${ROOT:-}" ]; then
   place=$work/program
   mkdir -p "$place/bin"
   files=("$kagefude" "$(dirname "$kagefude")/kagefude-oiio" \
-    "$(ldconfig -p | awk '/libmicrohttpd.so.12 /{print $NF; exit}')")
+    "$(ldconfig -p | awk '/libmicrohttpd.so.12 /{found = $NF} END{print found}')")
   cp "${files[@]}" "$place/bin/"
   ldd "${files[@]}" | awk '/=> \//{print $3} /^\t\/.*ld-linux/{print $1}' | sort -u | xargs cp -t "$place"
   for name in kagefude kagefude-oiio; do

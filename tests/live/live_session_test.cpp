@@ -134,7 +134,8 @@ TEST_F(Session, ThePageGetsStateAndPixelsInOneAnswer) {
     EXPECT_EQ(answer.body.size(), 4 + state.dump(-1, ' ', true).size() + width * height * 4)
         << stage;
     EXPECT_EQ(state["values"]["style"][0]["style"]["strip"], "builtin:soft");
-    EXPECT_EQ(state["onDisk"], (nlohmann::json{{"style", {"Ball / "}}, {"light", nlohmann::json::array()}}));
+    EXPECT_EQ(state["onDisk"],
+              (nlohmann::json{{"style", {"Ball / "}}, {"light", nlohmann::json::array()}}));
     EXPECT_EQ(state["lights"][0]["name"], "Key");
   }
   EXPECT_EQ(get("/picture", {{"stage", "nothing"}}).status, 400);
@@ -202,8 +203,9 @@ TEST_F(PreparedFrames, NothingIsPreparedBeyondTheMemory) {
   LiveSession session(small);
   EXPECT_FALSE(madeFor(session, 1).empty());
   const uint64_t back = session.change({{}, 0});
-  EXPECT_FALSE(viewWhere(session, [&](const LiveView& v) { return v.change == back; })
-                   .picture->made.empty());
+  EXPECT_FALSE(viewWhere(session, [&](const LiveView& v) {
+                 return v.change == back;
+               }).picture->made.empty());
 }
 
 TEST_F(PreparedFrames, ABrokenOneIsNotSeenBeforeItIsAskedFor) {
@@ -227,8 +229,8 @@ TEST_F(Session, ThePageIsAnsweredOrRefusedInWords) {
   };
   for (const char* path :
        {"/", "/main.js", "/link.js", "/viewer.js", "/knobs.js", "/history.js", "/strips.js",
-        "/own_entry.js", "/light_drag.js", "/unpack.js", "/control.js", "/easel.js", "/strip_drop.js",
-        "/style.css", "/tables", "/strips", "/paint"})
+        "/own_entry.js", "/light_drag.js", "/unpack.js", "/control.js", "/easel.js",
+        "/strip_drop.js", "/style.css", "/tables", "/strips", "/paint"})
     EXPECT_EQ(ask("GET", path, ""), 200) << path;
   for (const char* path : {"/look.toml", "/main.js/", "/page/main.js", ""})
     EXPECT_EQ(ask("GET", path, ""), 404) << path;
