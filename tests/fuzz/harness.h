@@ -26,5 +26,6 @@ void fuzzCasters(std::string_view input);
 void fuzzExrHeader(std::string_view input);
 void fuzzExrChunks(std::string_view input);
 void fuzzPng(std::string_view input);
+void fuzzPalette(std::string_view input);
 
 }  // namespace kagefude::fuzz

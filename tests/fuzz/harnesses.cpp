@@ -13,7 +13,8 @@ std::span<const Harness> harnesses() {
                                     {"casters", fuzzCasters},
                                     {"exr_header", fuzzExrHeader},
                                     {"exr_chunks", fuzzExrChunks},
-                                    {"png", fuzzPng}};
+                                    {"png", fuzzPng},
+                                    {"palette", fuzzPalette}};
   return all;
 }
 
