@@ -6,6 +6,8 @@ std::span<const Harness> harnesses() {
   static constexpr Harness all[] = {{"look", fuzzLook},
                                     {"override", fuzzOverride},
                                     {"frame_range", fuzzFrameRange},
+                                    {"save", fuzzSave},
+                                    {"page_guard", fuzzPageGuard},
                                     {"manifest", fuzzManifest},
                                     {"sidecar", fuzzSidecar},
                                     {"casters", fuzzCasters},
