@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "compositor/finish_picture.h"
+#include "compositor/frame_ground.h"
+#include "compositor/frame_tint.h"
 #include "compositor/frame_tone.h"
 #include "compositor/output_layers.h"
 #include "compositor/paint_styles.h"
@@ -44,7 +46,9 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
       labelSurfaces(planes.objectId, planes.normal, planes.position, look.passes.surfaces, &joins);
   lap(clock, "surfaces");
   if (sink) showInputs(planes, surfaces, *sink);
-  Floats tone = frameTone(look, plan, planes, surfaces, result, sink, clock);
+  Vec3Plane light;
+  Vec3Plane* const wantedLight = lightsTint(look) ? &light : nullptr;
+  Floats tone = frameTone(look, plan, planes, surfaces, result, sink, clock, wantedLight);
 
   const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
   result.fittingStyles = styled.fitting;
@@ -52,14 +56,17 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   lap(clock, "styles and tone");
   if (sink) sink->number("brush.tone", tone);
   const bool diagnostics = sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");
-  BrushResult brush = paintStyles(strips, planes, tone, styled, diagnostics);
+  BrushResult brush =
+      paintStyles(strips, planes, tone, styled, surfaces, diagnostics, keepsGrain(look, styled));
   lap(clock, "brush");
   if (sink) {
     sink->number("brush.angle", brush.angle);
     sink->number("brush.repeat, within each ring", fractions(brush.repeat));
   }
-  Floats outline =
-      finishPicture(look, plan, planes, styled, joins, asksFor(look, "outline"), brush);
+  FinishInput finish{look, strips, plan, planes, styled, tone, joins};
+  finish.lightColour = wantedLight;
+  finish.outlines = asksFor(look, "outline");
+  Floats outline = finishPicture(finish, brush);
   lap(clock, "edges and outlines");
   if (sink && !outline.empty()) sink->number("outline", outline);
   result.colour.x = std::move(brush.r);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include "compositor/frame_edges.h"
+#include "compositor/frame_ground.h"
+#include "compositor/frame_tint.h"
 #include "image/parallel.h"
+#include "passes/ground/paper_deposit.h"
 
 namespace kagefude {
 namespace {
@@ -36,6 +39,28 @@ void putLinesOver(const FramePlanes& planes, BrushResult& brush) {
   });
 }
 
+PaintViews viewsOf(BrushResult& brush) { return {brush.r, brush.g, brush.b, brush.a}; }
+
+/// Paint takes to the paper before things meet, so that each knows its own tone; what it leaves
+/// bare shows the ground.
+void layOnGround(const FinishInput& in, BrushResult& brush) {
+  const PaperParams& paper = in.look.passes.paper;
+  const PaperTooth tooth = frameTooth(in);
+  if (paper.strength > 0.0f) {
+    depositPaint(viewsOf(brush), in.tone, brush.grain, {tooth.height, tooth.slope}, paper);
+  }
+  const bool edges = paintsEdges(in.styled);
+  BrushResult own;
+  if (edges)
+    own = keepBeforeEdges(in.plan, in.planes, brush);
+  else
+    blendEdges(in.plan, in.planes, brush);
+  const ColourPlanes ground = frameGround(in, brush.a, tooth);
+  const ColourViews behind{ground.r, ground.g, ground.b, ground.a};
+  if (edges) paintStyleEdges(in.plan, in.planes, in.styled, own, behind, brush);
+  if (!ground.r.empty()) layOver(viewsOf(brush), behind);
+}
+
 void noteBadPixels(const FramePlanes& planes, std::vector<std::string>& warnings) {
   const auto note = [&](size_t count, const char* what, const char* taken) {
     if (count)
@@ -50,15 +75,19 @@ void noteBadPixels(const FramePlanes& planes, std::vector<std::string>& warnings
 
 }  // namespace
 
-Floats finishPicture(const Look& look, const FramePlan& plan, const FramePlanes& planes,
-                     const StyledSurfaces& styled, View<const uint8_t> joins, bool outlines,
-                     BrushResult& brush) {
-  multiplyAlbedo(planes, styled, brush);
-  if (look.output.edges == Edges::coverage) blendInside(planes, styled, joins, brush);
-  blendEdges(plan, planes, brush);
-  if (look.output.background == Background::beauty && !planes.beauty.empty())
-    putBeautyBehind(planes, brush);
-  Floats outline = drawStyleOutlines(plan, planes, styled, outlines, brush);
+Floats finishPicture(const FinishInput& in, BrushResult& brush) {
+  const FramePlanes& planes = in.planes;
+  multiplyAlbedo(planes, in.styled, brush);
+  tintPaint(in.styled, in.tone, in.lightColour, brush);
+  if (in.look.output.edges == Edges::coverage) blendInside(planes, in.styled, in.joins, brush);
+  if (usesGround(in.look, in.styled)) {
+    layOnGround(in, brush);
+  } else {
+    blendEdges(in.plan, planes, brush);
+    if (in.look.output.background == Background::beauty && !planes.beauty.empty())
+      putBeautyBehind(planes, brush);
+  }
+  Floats outline = drawStyleOutlines(in.plan, planes, in.styled, in.outlines, brush);
   if (!planes.linesAlpha.empty()) putLinesOver(planes, brush);
   return outline;
 }

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <unordered_map>
+#include <utility>
 
 #include "base/same_params.h"
 #include "image/parallel.h"
 #include "passes/edges/behind_paint.h"
 #include "passes/edges/inner_edges.h"
 #include "passes/edges/outline.h"
+#include "passes/edges/painted_edges.h"
 
 namespace kagefude {
 namespace {
@@ -29,6 +31,17 @@ Labels ownCryptomatteIds(const FramePlan& plan, View<const uint32_t> objects) {
     }
     ids.row(0)[i] = lastId;
   }
+  return ids;
+}
+
+/// The Cryptomatte's id of each anchor's thing.
+std::vector<uint32_t> cryptomatteIdsOf(const FramePlan& plan, View<const uint32_t> objects,
+                                       const StyledSurfaces& styled) {
+  std::vector<uint32_t> ids(styled.anchors.size(), 0u);
+  uint16_t known = 0;  // anchors are numbered by their first pixel
+  const uint16_t* const anchors = styled.anchorIndex.row(0);
+  for (size_t i = 0; i < objects.pixels() && known < ids.size(); ++i)
+    if (anchors[i] == known + 1) ids[known++] = plan.cryptomatteIdOf(objects.data[i]);
   return ids;
 }
 
@@ -77,14 +90,20 @@ void paintLines(const OutlineResult& lines, const StyledSurfaces& styled,
 }  // namespace
 
 void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush) {
-  if (planes.coverageIds.empty()) return;
+  if (!planes.coverageIds.empty()) keepBeforeEdges(plan, planes, brush);
+}
+
+BrushResult keepBeforeEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush) {
+  if (planes.coverageIds.empty()) return cloneColours(brush);
   const Labels own = ownCryptomatteIds(plan, planes.objectId);
   ColourPlanes blended =
       blendByCoverage({brush.r, brush.g, brush.b, brush.a}, own, coverageRanks(planes));
-  brush.r = std::move(blended.r);
-  brush.g = std::move(blended.g);
-  brush.b = std::move(blended.b);
-  brush.a = std::move(blended.a);
+  BrushResult before;
+  before.r = std::exchange(brush.r, std::move(blended.r));
+  before.g = std::exchange(brush.g, std::move(blended.g));
+  before.b = std::exchange(brush.b, std::move(blended.b));
+  before.a = std::exchange(brush.a, std::move(blended.a));
+  return before;
 }
 
 void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<const uint8_t> joins,
@@ -99,6 +118,25 @@ void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {
   const ColourViews beauty{planes.beauty.x, planes.beauty.y, planes.beauty.z, planes.alpha};
   layOverPicture({brush.r.view(), brush.g.view(), brush.b.view(), brush.a.view()}, beauty,
                  coverageRanks(planes));
+}
+
+void paintStyleEdges(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
+                     const BrushResult& own, const ColourViews& ground, BrushResult& brush) {
+  const std::vector<CoverageRank> ranks = coverageRanks(planes);
+  std::vector<uint32_t> ids;
+  if (!ranks.empty()) ids = cryptomatteIdsOf(plan, planes.objectId, styled);
+  EdgePaint paint{{own.r, own.g, own.b, own.a}, styled.anchorIndex, styled.edges};
+  if (plan.sidecar || planes.rays) {
+    paint.position = planes.position;
+    paint.eye = V3f(plan.sidecar ? plan.sidecar->camera.position : planes.rays->eye);
+  } else {
+    paint.distance = planes.depth;
+  }
+  paint.grain = brush.grain;
+  paint.coverageIds = ids;
+  paint.coverage = ranks;
+  paint.ground = ground;
+  paintEdges(paint, {brush.r, brush.g, brush.b, brush.a});
 }
 
 Floats drawStyleOutlines(const FramePlan& plan, const FramePlanes& planes,

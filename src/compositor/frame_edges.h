@@ -3,12 +3,16 @@
 #include "compositor/frame_plan.h"
 #include "compositor/styled_surfaces.h"
 #include "passes/brush/brush_map.h"
+#include "passes/edges/coverage_blend.h"
 
 namespace kagefude {
 
 /// Lets things meet by their Cryptomatte coverage instead of pixel by pixel, where the frame has
 /// it; else leaves the strokes as they are.
 void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
+
+/// The same; gives the colours as they were before.
+BrushResult keepBeforeEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
 
 /// Blends the strokes where edges run inside an object, and between objects where the frame has no
 /// coverage. `joins` are those of its surfaces.
@@ -18,6 +22,11 @@ void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<c
 /// Puts the beauty behind the strokes, each thing once: where coverage is known, not the things
 /// that are painted, but what lies beside them.
 void putBeautyBehind(const FramePlanes& planes, BrushResult& brush);
+
+/// Ends each style's paint as its [edges] say (paintEdges). `own` is the paint before things met;
+/// its grain must be there. `ground` may be empty.
+void paintStyleEdges(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
+                     const BrushResult& own, const ColourViews& ground, BrushResult& brush);
 
 /// Draws the styles' contour lines over the strokes, each in the colour of the style of its nearest
 /// surface. Returns the lines' coverage (layer `outline`); empty when no style draws any and

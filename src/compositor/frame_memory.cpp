@@ -21,6 +21,32 @@ constexpr size_t ofReadingIds = 16;  // two ranks of a Cryptomatte
 constexpr size_t ofEdgeRanks = 32;   // four ranks of a Cryptomatte
 constexpr size_t ofRanks = 40;       // a Cryptomatte that is ranked anew
 
+// A ground of its own: the paint before things met, the ground and what it is made of, the tooth;
+// and of painted edges the nearest borders and distances.
+constexpr size_t ofGround = 56, ofPaintedEdges = 46;
+constexpr size_t ofTint = 12;
+constexpr size_t ofSmoothNormals = 28;  // and the means of one width
+
+/// Whether the look or a style has passes of which `which` holds.
+template <class Which>
+bool anyPasses(const Look& look, const Which& which) {
+  return which(look.passes) ||
+         std::any_of(look.styles.begin(), look.styles.end(),
+                     [&](const StyleLook& style) { return which(style.passes); });
+}
+
+size_t groundBytes(const Look& look) {
+  const Background background = look.output.background;
+  const bool edges = anyPasses(look, [](const PassParams& p) { return p.edges.acts(); });
+  const bool ground = edges || look.passes.paper.strength > 0 ||
+                      (background != Background::beauty && background != Background::transparent);
+  const bool tint = anyPasses(look, [](const PassParams& p) { return p.tint.light > 0; });
+  const bool smooth =
+      anyPasses(look, [](const PassParams& p) { return p.brush.smoothNormals > 0; });
+  return (ground ? ofGround : 0) + (edges ? ofPaintedEdges : 0) + (tint ? ofTint : 0) +
+         (smooth ? 2 * ofSmoothNormals : 0);
+}
+
 size_t inputBytes(const FramePlan& plan) {
   size_t bytes = 0;
   for (const Channel& channel : plan.image.channels)
@@ -114,8 +140,8 @@ size_t frameMemory(const Look& look, const FramePlan& plan,
   const size_t reading = floats + 4 * masks + ids + ofReadingIds + edges;
   const auto area = static_cast<size_t>(look.output.scale) * static_cast<size_t>(look.output.scale);
   const size_t scaling = area > 1 ? ofIds + (ofResult + layers + ofIds) / area : 0;
-  const size_t composing =
-      floats + masks + ids + ofPasses + ofResult + layers + edges + tones + methods + scaling;
+  const size_t composing = floats + masks + ids + ofPasses + ofResult + layers + edges + tones +
+                           methods + scaling + groundBytes(look);
   const size_t written = (ofResult + asHalf + layers) / area;
   const size_t writing = written + passed + (area > 1 ? passed / area + ofRanks : 0);
   const size_t pixels =

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "compositor/casting_scene.h"
 #include "compositor/output_layers.h"
 #include "compositor/position_pass.h"
 #include "compositor/scale_down.h"
@@ -173,6 +174,26 @@ bool leadMayChange(const Look& look, const FramePlan& plan) {
   return !allChosen && leads[1] > 0.5f * leads[0];
 }
 
+bool endsPaint(const Look& look) {
+  return look.passes.edges.acts() ||
+         std::any_of(look.styles.begin(), look.styles.end(),
+                     [](const StyleLook& style) { return style.passes.edges.acts(); });
+}
+
+/// What is fixed to the world wants to know where the camera looks.
+void noteFixedWithoutCamera(const Look& look, FramePlan& plan) {
+  const Background background = look.output.background;
+  const PaperParams& paper = look.passes.paper;
+  const bool hasPaper = paper.strength > 0 || background == Background::paper;
+  const bool world =
+      (hasPaper && paper.fixed == PaperParams::Fixed::world) ||
+      (background == Background::strip && look.passes.ground.fixed == GroundParams::Fixed::world);
+  if (world && !raysOf(plan, false))
+    plan.warnings.push_back(
+        "paper.fixed or ground.fixed is \"world\", but the camera is not known, so the ground "
+        "stands still on the screen");
+}
+
 }  // namespace
 
 std::string FramePlan::objectName(uint32_t id) const {
@@ -238,7 +259,8 @@ FramePlan planOpenFrame(const Look& asked, ImageFile image, std::optional<Sideca
   nameObjectsFromSidecar(plan);
   nameObjectsFromLook(look, plan);
   planCoverage(look, names, plan);
-  if (wantsOutlines(look) && !plan.sidecar) plan.depth = findAov(plan.image, names, AovKind::depth);
+  if ((wantsOutlines(look) || endsPaint(look)) && !plan.sidecar)
+    plan.depth = findAov(plan.image, names, AovKind::depth);
   plan.hasCasters = plan.sidecar && !plan.sidecar->casters.empty();
   plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame,
                              plan.hasCasters);
@@ -246,6 +268,7 @@ FramePlan planOpenFrame(const Look& asked, ImageFile image, std::optional<Sideca
     plan.warnings.push_back(
         "the JSON says nothing of the whole shot, so the light that is heaviest in each frame "
         "leads its strokes; export the shot again, or name one with style.light");
+  noteFixedWithoutCamera(look, plan);
   checkLayers(look, plan.lights);
   return plan;
 }

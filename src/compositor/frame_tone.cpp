@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compositor/frame_tint.h"
 #include "compositor/light_visibility.h"
 #include "compositor/output_layers.h"
 #include "image/parallel.h"
@@ -81,6 +82,10 @@ Floats lightTone(const Look& look, const FrameLight& light, View<const float> vi
   return tone;
 }
 
+std::vector<float> toneWeights(const Look& look, const std::vector<FrameLight>& lights) {
+  return weightsOf(lights, look);
+}
+
 bool oneToneIsAll(const Look& look, const std::vector<FrameLight>& lights) {
   return lights.size() == 1 && look.passes.tone.light == ToneLight::shade &&
          weightsOf(lights, look)[0] == 1.0f;
@@ -95,7 +100,7 @@ Floats sumTones(const Look& look, const std::vector<FrameLight>& lights,
 
 Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& planes,
                  View<const uint32_t> surfaces, FrameResult& result, StageSink* sink,
-                 StageClock* clock) {
+                 StageClock* clock, Vec3Plane* colour) {
   std::vector<Floats> tones;
   for (size_t i = 0; i < plan.lights.size(); ++i) {
     const FrameLight& light = plan.lights[i];
@@ -109,6 +114,8 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
     sources.confidence = std::move(shadow.confidence);
     takeLayers(look, LayerStage::light, sources, result);
   }
+  if (colour)
+    *colour = lightColour(plan, {tones.begin(), tones.end()}, toneWeights(look, plan.lights));
   if (oneToneIsAll(look, plan.lights)) return std::move(tones.front());
   return sumTones(look, plan.lights, {tones.begin(), tones.end()});
 }

@@ -8,11 +8,11 @@
 namespace kagefude {
 
 /// The tone of a frame from all its lights: shade merged with visibility (002 eq. 3.1, 4.8), then
-/// summed by the lights' weights. Layers visibility.<light> go to `result` where the look asks for
-/// them.
+/// summed by the lights' weights. `colour`, if not null, gets the colour of the light at every
+/// pixel (lightColour). Layers visibility.<light> go to `result` where the look asks for them.
 Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& planes,
                  View<const uint32_t> surfaces, FrameResult& result, StageSink* sink,
-                 StageClock* clock);
+                 StageClock* clock, Vec3Plane* colour = nullptr);
 
 /// One light's part of it, before it is weighed against the others: its shade merged with
 /// `visibility` at its shadow's strength, and how far and to which side it shines.
@@ -21,6 +21,9 @@ Floats lightTone(const Look& look, const FrameLight& light, View<const float> vi
 
 /// Whether the tone of the first light is that of the frame as it is, without sumTones.
 bool oneToneIsAll(const Look& look, const std::vector<FrameLight>& lights);
+
+/// By what each light's tone counts in it.
+std::vector<float> toneWeights(const Look& look, const std::vector<FrameLight>& lights);
 
 /// The lights' tones by their weights, in the order of the plan's lights.
 Floats sumTones(const Look& look, const std::vector<FrameLight>& lights,

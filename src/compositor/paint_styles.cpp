@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/same_params.h"
+#include "compositor/stroke_normals.h"
 #include "image/parallel.h"
 
 namespace kagefude {
@@ -36,11 +37,15 @@ Plane<uint16_t> onlyGroup(View<const uint16_t> index, const std::vector<size_t>&
 }  // namespace
 
 BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<const float> tone,
-                        const StyledSurfaces& styled, bool diagnostics) {
+                        const StyledSurfaces& styled, View<const uint32_t> surfaces,
+                        bool diagnostics, bool grain) {
   BrushResult result;
+  const Vec3Plane smooth = strokeNormals(planes, styled, surfaces);
+  const Vec3View normals = smooth.empty() ? planes.normal.view() : smooth.view();
   const auto paint = [&](View<const uint16_t> index, BrushParams params, bool keepOthers) {
     params.diagnostics = diagnostics;
-    applyBrush(planes.position, planes.normal, tone, index, styled.anchors, strips.strips(), params,
+    params.keepsGrain = grain;
+    applyBrush(planes.position, normals, tone, index, styled.anchors, strips.strips(), params,
                result, keepOthers, styled.rest);
   };
   const std::vector<size_t> groups = groupsOf(styled.brushes);

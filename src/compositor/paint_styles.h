@@ -8,8 +8,10 @@
 namespace kagefude {
 
 /// Lays the strokes of every style (see applyBrush): styles whose brush parameters are equal in one
-/// go, the others one after the other. `diagnostics` asks for the angle and repeat planes.
+/// go, the others one after the other. `surfaces` bound the smoothing of normals (strokeNormals).
+/// `diagnostics` asks for the angle and repeat planes, `grain` for that of the strokes.
 BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<const float> tone,
-                        const StyledSurfaces& styled, bool diagnostics);
+                        const StyledSurfaces& styled, View<const uint32_t> surfaces,
+                        bool diagnostics, bool grain);
 
 }  // namespace kagefude

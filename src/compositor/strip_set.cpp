@@ -137,6 +137,21 @@ bool multipliesColour(const StyleParams& style) {
   return style.colour == StripColour::multiply;
 }
 
+std::vector<std::string> paintedFiles(const Look& look) {
+  std::vector<std::string> names;
+  for (const StyleLook& style : look.styles) names.push_back(style.style.strip);
+  const GroundParams& ground = look.passes.ground;
+  if (look.output.background == Background::strip) names.push_back(ground.strip);
+  if (look.output.background == Background::picture) {
+    if (ground.picture.empty())
+      throw LookError(
+          "output.background = \"picture\" shows the file that ground.picture names, "
+          "which is empty");
+    names.push_back(ground.picture);
+  }
+  return names;
+}
+
 int StripSet::indexOf(const std::string& name) const {
   const int index = indices_.at(name);
   if (index == 0)
@@ -169,7 +184,8 @@ StripSet::Loaded StripSet::release() {
 
 void StripSet::load(const Look& look, Loaded& loaded) {
   std::vector<std::string> names = {StyleParams{}.strip};
-  for (const StyleLook& style : look.styles) names.push_back(style.style.strip);
+  for (std::string& name : paintedFiles(look)) names.push_back(std::move(name));
+  if (look.output.background == Background::picture) picture_ = look.passes.ground.picture;
   std::vector<std::string> distinct;
   for (const std::string& name : names)
     if (indices_.emplace(name, static_cast<int>(distinct.size())).second) distinct.push_back(name);

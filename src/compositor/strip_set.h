@@ -33,6 +33,10 @@ class StripSet {
   /// one is painted when it is first asked for: many looks leave no surface to it.
   int indexOf(const std::string& name) const;
   const std::vector<Strip>& strips() const { return strips_; }
+  /// The picture behind things (ground.picture), held as a strip; null where the look shows none.
+  const Strip* picture() const {
+    return picture_.empty() ? nullptr : &strips_[static_cast<size_t>(indexOf(picture_))];
+  }
 
  private:
   void load(const Look& look, Loaded& loaded);
@@ -41,7 +45,11 @@ class StripSet {
   mutable std::vector<Strip> strips_;  ///< the first is the neutral one, empty until asked for
   mutable tbb::collaborative_once_flag neutral_;
   std::map<std::string, int> indices_;
+  std::string picture_;
 };
+
+/// Names of all strips and pictures that a look paints with: each style's, then the ground's.
+std::vector<std::string> paintedFiles(const Look& look);
 
 /// The space of strips that are pictures: the look's colour.strip, else sRGB.
 std::string stripColourSpace(const Look& look);

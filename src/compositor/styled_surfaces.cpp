@@ -11,6 +11,7 @@
 #include "base/glob.h"
 #include "base/nearest_name.h"
 #include "compositor/stroke_grounds.h"
+#include "image/real_math.h"
 
 namespace kagefude {
 namespace {
@@ -262,7 +263,27 @@ void noteBlack(const FramePlan& plan, const FramePlanes& planes, const SurfaceIn
                   listNames({names.begin(), names.end()})));
 }
 
+/// Pixels that the strip's width covers where the subject stands.
+float stripPixelsOf(const BrushSubject& subject, const BrushAnchor& anchor) {
+  if (!(subject.worldPerPixel > 0.0f)) return 0.0f;
+  const float width = anchor.mappingDistance * (1.0f + anchor.coarser);
+  return 2.0f * pi * width / subject.worldPerPixel;
+}
+
+/// Widths that keep to the object as pixels.
+PaintedEdgeParams edgesOf(PaintedEdgeParams edges, float stripPixels, float wantedPixels) {
+  if (edges.size == PaintedEdgeParams::Size::screen || !(stripPixels > 0.0f)) return edges;
+  const float factor = stripPixels / wantedPixels;
+  for (float* width : {&edges.rough, &edges.dryWidth, &edges.rim, &edges.lost}) *width *= factor;
+  return edges;
+}
+
 }  // namespace
+
+bool paintsEdges(const StyledSurfaces& styled) {
+  return std::any_of(styled.edges.begin(), styled.edges.end(),
+                     [](const PaintedEdgeParams& edges) { return edges.acts(); });
+}
 
 StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const FramePlan& plan,
                              const FramePlanes& planes, std::vector<std::string>& warnings) {
@@ -297,6 +318,10 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     const std::vector<float>& line = style.style.outlineColour;
     const auto colour = line.empty() ? std::nullopt : std::optional(V3f(line[0], line[1], line[2]));
     result.outlines.push_back({colour, style.passes.outline});
+    result.stripPixels.push_back(stripPixelsOf(subject, result.anchors.back()));
+    result.edges.push_back(
+        edgesOf(style.passes.edges, result.stripPixels.back(), style.passes.brush.stripPixels));
+    result.tints.push_back(style.passes.tint);
   }
   result.rest = grounds.places(planes, index.plane);
   noteUnbounded(unbounded, warnings);

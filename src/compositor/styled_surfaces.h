@@ -7,6 +7,8 @@
 #include "compositor/strip_set.h"
 #include "passes/brush/brush_anchor.h"
 #include "passes/edges/outline.h"
+#include "passes/edges/painted_edge_params.h"
+#include "passes/tone/tint.h"
 #include "passes/tone/tone.h"
 
 namespace kagefude {
@@ -24,11 +26,17 @@ struct StyledSurfaces {
   std::vector<BrushAnchor> anchors;
   Vec3Plane rest;           ///< places at rest of the anchors that lie there; empty where none does
   std::vector<int> styles;  ///< per anchor: place in the look's list, -1: none matches
-  std::vector<BrushParams> brushes;    ///< per anchor
-  std::vector<ToneParams> tones;       ///< per anchor
-  std::vector<bool> multiplies;        ///< per anchor: the strip multiplies the surface's colour
-  std::vector<StyleOutline> outlines;  ///< per anchor
+  std::vector<BrushParams> brushes;      ///< per anchor
+  std::vector<ToneParams> tones;         ///< per anchor
+  std::vector<bool> multiplies;          ///< per anchor: the strip multiplies the surface's colour
+  std::vector<StyleOutline> outlines;    ///< per anchor
+  std::vector<PaintedEdgeParams> edges;  ///< per anchor, widths in pixels
+  std::vector<TintParams> tints;         ///< per anchor
+  std::vector<float> stripPixels;  ///< per anchor: pixels that the strip's width covers; 0: unknown
 };
+
+/// Whether any style's paint ends by [edges].
+bool paintsEdges(const StyledSurfaces& styled);
 
 /// Gives every object (and material, where styles ask) the style that matches (chooseStyle), or the
 /// look's own brush with the built-in strip, and lays its anchor by the sidecar's bounds and

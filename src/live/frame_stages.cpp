@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "compositor/finish_picture.h"
+#include "compositor/frame_ground.h"
+#include "compositor/frame_tint.h"
 #include "compositor/frame_tone.h"
 #include "compositor/paint_styles.h"
 #include "compositor/scale_down.h"
@@ -21,20 +23,25 @@ StageKey keyOf(std::initializer_list<uint64_t> versions) {
   return key;
 }
 
-BrushResult cloneColours(const BrushResult& strokes) {
-  BrushResult copy;
-  copy.r = strokes.r.clone();
-  copy.g = strokes.g.clone();
-  copy.b = strokes.b.clone();
-  copy.a = strokes.a.clone();
-  return copy;
-}
-
-FinishedPicture finish(const Look& look, const FramePlan& plan, const StagedFrame& frame) {
+FinishedPicture finish(const Look& look, const StripSet& strips, const FramePlan& plan,
+                       const StagedFrame& frame) {
   BrushResult brush = cloneColours(*frame.strokes);
   FinishedPicture picture;
-  picture.outline = finishPicture(look, plan, *frame.planes, frame.styles->surfaces,
-                                  frame.surfaces->joins, false, brush);
+  Vec3Plane light;
+  if (lightsTint(look)) {
+    std::vector<View<const float>> tones;
+    for (const LightStagesMade& made : frame.lights) tones.push_back(made.tone->view());
+    light = lightColour(plan, tones, toneWeights(look, plan.lights));
+  }
+  FinishInput input{look,
+                    strips,
+                    plan,
+                    *frame.planes,
+                    frame.styles->surfaces,
+                    *frame.tone,
+                    frame.surfaces->joins};
+  if (!light.empty()) input.lightColour = &light;
+  picture.outline = finishPicture(input, brush);
   picture.frame.colour.x = std::move(brush.r);
   picture.frame.colour.y = std::move(brush.g);
   picture.frame.colour.z = std::move(brush.b);
@@ -125,16 +132,20 @@ void FrameStages::paint(const Look& look, const Made<StripSet>& strips, const Fr
     return adjusted;
   });
 
-  strokes.add(frame.tone.version);
+  strokes.add(frame.tone.version).add(frame.surfaces.version).add(keepsGrain(look, styled));
   frame.strokes = strokes_.at(run, "strokes", std::move(strokes), [&] {
-    return paintStyles(*strips, *frame.planes, *frame.tone, styled, false);
+    return paintStyles(*strips, *frame.planes, *frame.tone, styled, frame.surfaces->labels, false,
+                       keepsGrain(look, styled));
   });
 
   StageKey picture = keyOf(
       {frame.strokes.version, frame.styles.version, frame.planes.version, frame.surfaces.version});
+  picture.add(frame.tone.version).add(strips.version);
   picture.add(look.output.background).add(look.output.edges).add(look.output.scale);
-  frame.picture =
-      picture_.at(run, "picture", std::move(picture), [&] { return finish(look, plan, frame); });
+  picture.add(groundTable, &look.passes.ground).add(paperTable, &look.passes.paper);
+  picture.add(look.frame.up);
+  frame.picture = picture_.at(run, "picture", std::move(picture),
+                              [&] { return finish(look, *strips, plan, frame); });
 }
 
 /// Lights that take no part any more give their memory back.

@@ -27,10 +27,13 @@
 //   smoothing   smoothWithinSurfaces         [smooth] (where the method's row asks for it)
 //   tone of     lightTone                    [shade], [merge], shadow.strength, the light's weight
 //   sum         sumTones                     merge.lights, tone.light, all weights
-//   styles      styleSurfaces                [scene], lights, [brush], [outline], [tone], [[style]]
+//   styles      styleSurfaces                [scene], lights, [brush], [outline], [edges], [tint],
+//                                            [tone], [[style]]
 //   tone        adjustTone                   the [tone] of each anchor
-//   strokes     paintStyles                  as styles, but for outlines, tone and albedo
-//   picture     finishPicture, scaleDown     output.background, output.edges, output.scale
+//   strokes     paintStyles                  as styles, but for outlines, tone and albedo; whether
+//                                            any edges are painted
+//   picture     finishPicture, scaleDown     output.background, output.edges, output.scale,
+//                                            [ground], [paper], strips
 //
 // A key may name more than its stage needs (a light's shadow counts the parameters of all methods):
 // that costs a stage for a knob that does nothing. It must never name less: tests/live turns every

@@ -192,8 +192,8 @@ void LiveSession::answer(bool whole) {
     const auto [onDisk, look] = readAsked(now_.overrides);
     made.onDisk = entriesOf(onDisk);
     strips_.clear();
-    for (const StyleLook& style : look.styles)
-      if (!isBuiltinStrip(style.style.strip)) strips_.push_back(look.resolve(style.style.strip));
+    for (const std::string& name : paintedFiles(look))
+      if (!isBuiltinStrip(name)) strips_.push_back(look.resolve(name));
     files_ = filesNow();
     std::stop_token stop;
     {

@@ -16,8 +16,10 @@ namespace fs = std::filesystem;
 
 /// Every file that a look names but for strips, with its key.
 std::set<std::pair<std::string, std::string>> filesNamed(const Look& look) {
-  std::set<std::pair<std::string, std::string>> named{{"colour.config", look.colour.config},
-                                                      {"shadow.blob", look.shadow.blob}};
+  std::set<std::pair<std::string, std::string>> named{
+      {"colour.config", look.colour.config},
+      {"shadow.blob", look.shadow.blob},
+      {"ground.picture", look.passes.ground.picture}};
   for (const LightLook& light : look.lights) {
     named.insert({"light.shadow.blob", light.shadow.blob});
     named.insert({"light.depth_map", light.light.depthMap});
@@ -52,15 +54,16 @@ void refuseForeignPaths(const Look& onDisk, const Look& asked) {
   }
   std::set<std::string> strips;
   for (const StyleLook& style : onDisk.styles) strips.insert(style.style.strip);
-  for (const StyleLook& style : asked.styles) {
-    const std::string& strip = style.style.strip;
-    if (isBuiltinStrip(strip) || strips.contains(strip)) continue;
+  strips.insert(onDisk.passes.ground.strip);
+  const auto refuse = [&](const char* key, const std::string& strip) {
+    if (isBuiltinStrip(strip) || strips.contains(strip)) return;
     if (!liesInFolder(asked.folder, strip))
       throw LookError(fmt::format(
-          "style.strip = \"{}\" is not in the look's folder; the page can only choose strips that "
-          "lie there",
-          strip));
-  }
+          "{} = \"{}\" is not in the look's folder; the page can only choose strips that lie there",
+          key, strip));
+  };
+  for (const StyleLook& style : asked.styles) refuse("style.strip", style.style.strip);
+  refuse("ground.strip", asked.passes.ground.strip);
 }
 
 }  // namespace kagefude

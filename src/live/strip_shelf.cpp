@@ -18,7 +18,7 @@ std::map<std::string, StageKey> stampsOf(const Look& look, const Made<Colour>& c
     stamps.insert_or_assign(name, std::move(key));
   };
   stamp(StyleParams{}.strip);
-  for (const StyleLook& style : look.styles) stamp(style.style.strip);
+  for (const std::string& name : paintedFiles(look)) stamp(name);
   return stamps;
 }
 
@@ -40,9 +40,8 @@ Made<StripSet> StripShelf::stripsOf(const Look& look, const Made<Colour>& colour
   std::map<std::string, StageKey> stamps = stampsOf(look, colour);
   // In the order of the styles, which is that of the strips' numbers.
   StageKey key;
-  for (const StyleLook& style : look.styles)
-    key.add(style.style.strip).add(stamps[style.style.strip]);
-  key.add(colour.version);
+  for (const std::string& name : paintedFiles(look)) key.add(name).add(stamps[name]);
+  key.add(colour.version).add(look.output.background == Background::picture);
   if (set_ && key == key_) return {set_, version_};
   if (run.stop.stop_requested()) throw Superseded();
   // What can fail comes first, so that the set stays as it was.
@@ -63,15 +62,18 @@ Made<StripSet> StripShelf::stripsOf(const Look& look, const Made<Colour>& colour
 /// The strips that are neither in the set nor spare, or were made of something else.
 StripSet::Loaded StripShelf::loadMissing(Look look, const Colour& colour,
                                          const std::map<std::string, StageKey>& stamps) const {
-  std::erase_if(look.styles, [&](const StyleLook& style) {
-    const std::string& name = style.style.strip;
+  const auto isThere = [&](const std::string& name) {
     const StageKey& wanted = stamps.at(name);
     const auto inSet = stamps_.find(name);
     return (set_ && inSet != stamps_.end() && inSet->second == wanted) ||
            std::any_of(spare_.begin(), spare_.end(), [&](const Spare& spare) {
              return spare.name == name && spare.stamp == wanted;
            });
-  });
+  };
+  std::erase_if(look.styles, [&](const StyleLook& style) { return isThere(style.style.strip); });
+  const std::vector<std::string> painted = paintedFiles(look);
+  if (painted.size() > look.styles.size() && isThere(painted.back()))
+    look.output.background = Background::beauty;  // shows no file of its own
   return StripSet(look, colour).release();
 }
 

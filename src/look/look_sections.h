@@ -15,12 +15,16 @@
 #include "passes/depth_map/pcf.h"
 #include "passes/depth_map/pcss.h"
 #include "passes/edges/outline.h"
+#include "passes/edges/painted_edge_params.h"
+#include "passes/ground/ground.h"
+#include "passes/ground/paper.h"
 #include "passes/light_shape/light_shape.h"
 #include "passes/search/pair_search.h"
 #include "passes/tone/lambert.h"
 #include "passes/tone/merge.h"
 #include "passes/tone/smooth.h"
 #include "passes/tone/surfaces.h"
+#include "passes/tone/tint.h"
 #include "passes/tone/tone.h"
 
 namespace kagefude {
@@ -42,6 +46,10 @@ struct PassParams {
   MergeParams merge;
   ToneParams tone;
   BrushParams brush;
+  TintParams tint;
+  PaintedEdgeParams edges;
+  GroundParams ground;
+  PaperParams paper;
   OutlineParams outline;
 };
 
@@ -141,6 +149,10 @@ inline constexpr LookSection lookSections[] = {
     detail::ofPass<&PassParams::merge>(mergeTable, Scope::light, "lights"),
     detail::ofPass<&PassParams::tone>(toneTable, Scope::style, "light"),
     detail::ofPass<&PassParams::brush>(brushTable, Scope::style),
+    detail::ofPass<&PassParams::tint>(tintTable, Scope::style),
+    detail::ofPass<&PassParams::edges>(paintedEdgeTable, Scope::style),
+    detail::ofPass<&PassParams::ground>(groundTable, Scope::look),
+    detail::ofPass<&PassParams::paper>(paperTable, Scope::look),
     detail::ofPass<&PassParams::outline>(outlineTable, Scope::style),
     {.table = &lightTable},
     {.table = &styleTable},

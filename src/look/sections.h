@@ -82,8 +82,9 @@ inline constexpr Parameter colourParameters[] = {
 inline constexpr ParameterTable colourTable{"colour", "names the colour spaces", "OpenColorIO",
                                             colourParameters};
 
-enum class Background { beauty, transparent };
-inline constexpr std::string_view backgroundNames[] = {"beauty", "transparent"};
+enum class Background { beauty, transparent, colour, paper, picture, strip };
+inline constexpr std::string_view backgroundNames[] = {"beauty", "transparent", "colour",
+                                                       "paper",  "picture",     "strip"};
 enum class Edges { coverage, pixel };
 inline constexpr std::string_view edgeNames[] = {"coverage", "pixel"};
 inline constexpr std::string_view compressionNames[] = {"none", "rle", "zips", "zip", "piz"};
@@ -103,8 +104,10 @@ inline constexpr Parameter outputParameters[] = {
     plain<&OutputParams::layers>("layers", outputLayerHelp.view()),
     plain<&OutputParams::passthrough>("passthrough",
                                       "also writes every other input channel unchanged"),
-    choice<&OutputParams::background>("background", backgroundNames,
-                                      "what stands where no surface is painted"),
+    choice<&OutputParams::background>(
+        "background", backgroundNames,
+        "what stands where no surface is painted: the render, nothing, "
+        "or what [ground] and [paper] describe"),
     choice<&OutputParams::edges>("edges", edgeNames,
                                  "whether things meet by their Cryptomatte coverage, or pixel by "
                                  "pixel"),

@@ -54,8 +54,8 @@ std::string storedFingerprint(const std::filesystem::path& path, const PictureFo
 Fingerprint commonFingerprint(const Look& look, const Colour& colour) {
   Fingerprint print;
   print.add("version", KAGEFUDE_VERSION).add("look", resolvedText(look));
-  for (const StyleLook& style : look.styles)
-    if (!isBuiltinStrip(style.style.strip)) print.addFile("strip", look.resolve(style.style.strip));
+  for (const std::string& name : paintedFiles(look))
+    if (!isBuiltinStrip(name)) print.addFile("strip", look.resolve(name));
   if (!colour.file().empty()) print.addFile("colour", colour.file());
   const std::string stripSpace = stripColourSpace(look);
   if (colour.hasSpace(stripSpace)) print.add("strip space", colour.toWorkingId(stripSpace));
@@ -66,8 +66,8 @@ Fingerprint commonFingerprint(const Look& look, const Colour& colour) {
 FileSet filesToRead(const Look& look, const Colour& colour, const std::vector<FrameJob>& jobs) {
   FileSet files;
   files.add(colour.file());
-  for (const StyleLook& style : look.styles)
-    if (!isBuiltinStrip(style.style.strip)) files.add(look.resolve(style.style.strip));
+  for (const std::string& name : paintedFiles(look))
+    if (!isBuiltinStrip(name)) files.add(look.resolve(name));
   for (const FrameJob& job : jobs)
     for (const auto& input : job.inputs) {
       files.add(input);

@@ -42,7 +42,7 @@ class Sweep : public ::testing::Test, protected testing::SweepFrame {
 TEST_F(Sweep, EveryKeyOfAPassActsWhereItIsTakenOrIsRefusedByName) {
   addLight("Fill", {-3, -1, 9}, 4);
   const std::set<std::string> noPasses{"frame",  "shadow", "scene", "colour",
-                                       "output", "light",  "style"};
+                                       "output", "light",  "style", "ground"};
   for (const LookSection& row : lookSections) {
     const std::string section(row.table->pass);
     if (noPasses.contains(section)) continue;
@@ -52,6 +52,8 @@ TEST_F(Sweep, EveryKeyOfAPassActsWhereItIsTakenOrIsRefusedByName) {
     // A spot for the cone alone: round lights have none.
     frame.sidecar["lights"][0]["type"] = section == "shade" ? "spot" : "point";
     frame.sidecar["lights"][0]["cone"] = {{"angle", 0.5}, {"blend", 0.5}};
+    // Lights of two colours, or they tint nothing.
+    frame.sidecar["lights"][0]["color"] = {1, section == "tint" ? 0.5 : 1, 1};
     for (const Parameter& p : row.table->parameters) {
       const std::string key = section + "." + std::string(p.name);
       const auto companion = companions.find(key);

@@ -130,6 +130,7 @@ class SweepFrame {
         const double value = p.minimum + share * (std::min(p.maximum, 1e4) - p.minimum);
         all.push_back(fmt::format("{}", whole ? std::floor(value) : value));
       }
+    if (p.type == ValueType::numbers && p.count == 3) all = {"[0.1, 0.5, 0.9]"};
     return all;
   }
 
@@ -144,6 +145,7 @@ inline std::string contextOf(const std::string& section) {
     return start + section + "\"\nreceiver = \"Ground\"\n";
   if (section == "pcf" || section == "pcss" || section == "coverage" || section == "volume")
     return start + section + "\"\n";
+  if (section == "paper") return "output.background = \"paper\"\npaper.strength = 0.8\n";
   return "";
 }
 
@@ -162,6 +164,12 @@ inline const std::map<std::string, std::string> companions = {
     {"brush.cross_fade", "brush.mapping = \"polar\"\n"},
     {"brush.max_probes", "brush.mapping = \"polar\"\nbrush.mapping_distance = 0.05\n"},
     {"brush.filter", "brush.mapping = \"polar\"\n"},
+    {"edges.overrun", "edges.rough = 3\n"},
+    {"edges.dry_width", "edges.dry = 1\n"},
+    {"edges.rim_strength", "edges.rim = 6\n"},
+    {"edges.lost_tone", "edges.lost = 6\n"},
+    {"edges.size", "edges.rough = 3\n"},
+    {"tint.shadow_strength", "tint.shadow = [0.2, 0.3, 0.9]\n"},
 };
 
 }  // namespace kagefude::testing

@@ -66,6 +66,22 @@ void paintPlainly(const BrushInput& in, int first, int end, int y, ColourRows& o
   }
 }
 
+// The grain that painted colours show, for strokes that are not made of grain.
+void writeGrain(const BrushInput& in, const BrushAnchor& anchor, int x, int end, int y,
+                ColourRows& out) {
+  const auto brightness = [](float r, float g, float b) {
+    const float luminance = 0.2126f * r + 0.7152f * g + 0.0722f * b;
+    return std::sqrt(luminance > 0.0f ? luminance : 0.0f);
+  };
+  const Strip& strip = in.strips[static_cast<size_t>(anchor.strip)];
+  for (; x < end; ++x) {
+    const Rgba mean = stripRowMean(strip, clampedUnit(in.tone(x, y)));
+    const float grain =
+        10.0f * (brightness(out.r[x], out.g[x], out.b[x]) - brightness(mean[0], mean[1], mean[2]));
+    out.grain[x] = std::clamp(grain, -StripGrain::reach, StripGrain::reach);
+  }
+}
+
 /// Bands are painted in columns so wide, that a column's pixels and the parts of the strips that
 /// they read stay in the cache from one row to the next.
 constexpr int columnWidth = 5 * brushBlock;
@@ -77,14 +93,19 @@ void paintRow(const BrushInput& in, int x, int stop, int y, bool keepOthers, Col
     int end = x + 1;
     while (end < stop && index[end] == index[x]) ++end;
     const bool known = index[x] > 0 && index[x] <= in.anchors.size();
+    const bool ofGrain = known && canPaintObjectRow(in, in.anchors[index[x] - 1]);
     if (known && canPaintSeedRow(in, in.anchors[index[x] - 1]))
       paintSeedRow(in, in.anchors[index[x] - 1], x, end, y, out);
-    else if (known && canPaintObjectRow(in, in.anchors[index[x] - 1]))
+    else if (ofGrain)
       paintObjectRow(in, in.anchors[index[x] - 1], x, end, y, out);
     else if (known && canPaintHeldRow(in, in.anchors[index[x] - 1]))
       paintHeldRow(in, in.anchors[index[x] - 1], x, end, y, out);
     else if (known || !keepOthers)
       paintPlainly(in, x, end, y, out);
+    if (out.grain && known && !ofGrain)
+      writeGrain(in, in.anchors[index[x] - 1], x, end, y, out);
+    else if (out.grain && !known && !keepOthers)
+      std::fill(out.grain + x, out.grain + end, 0.0f);
     x = end;
   }
 }
@@ -105,15 +126,27 @@ void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
   for (Floats* plane : {&result.r, &result.g, &result.b, &result.a}) fit(*plane, tone);
   if (params.diagnostics)
     for (Floats* plane : {&result.angle, &result.repeat}) fit(*plane, tone);
+  if (params.keepsGrain) fit(result.grain, tone);
   parallelRows(tone.height, [&](int first, int end) {
     for (int x = 0; x < tone.width; x += columnWidth)
       for (int y = first; y < end; ++y) {
-        ColourRows out{result.r.row(y), result.g.row(y), result.b.row(y), result.a.row(y)};
+        ColourRows out{result.r.row(y), result.g.row(y), result.b.row(y), result.a.row(y),
+                       params.keepsGrain ? result.grain.row(y) : nullptr};
         paintRow(in, x, std::min(x + columnWidth, tone.width), y, keepOthers, out);
       }
     for (int y = first; params.diagnostics && y < end; ++y)
       writeDiagnostics(in, y, keepOthers, result);
   });
+}
+
+BrushResult cloneColours(const BrushResult& strokes) {
+  BrushResult copy;
+  copy.r = strokes.r.clone();
+  copy.g = strokes.g.clone();
+  copy.b = strokes.b.clone();
+  copy.a = strokes.a.clone();
+  if (!strokes.grain.empty()) copy.grain = strokes.grain.clone();
+  return copy;
 }
 
 BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> tone,

@@ -13,7 +13,11 @@ struct BrushResult {
   Floats r, g, b, a;
   Floats angle;   ///< W of the weightiest reference point, turns, [0, 1)
   Floats repeat;  ///< Pd / Md of the same, its whole part is T
+  Floats grain;   ///< of the strokes, see BrushParams::keepsGrain
 };
+
+/// A copy of colours and grain.
+BrushResult cloneColours(const BrushResult& strokes);
 
 /// Brush touch (002 §3.5): colours every pixel of anchor index i > 0 from the strip of
 /// anchors[i - 1], row v = tone, and a place u along the row.

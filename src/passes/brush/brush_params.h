@@ -28,7 +28,12 @@ struct BrushParams {
   int maxProbes = 8;
   int points = 0;
   float pointBlend = 0.6f;
+  float smoothNormals = 0;
   bool diagnostics = false;
+  /// Whether the strokes' grain is kept beside their colours, mean 0 and variance 1: that of
+  /// object grain, else the root of the luminance against its row's mean, in tenths. 0 where
+  /// nothing is painted.
+  bool keepsGrain = false;
 };
 
 inline constexpr std::string_view brushMappings[] = {"held", "polar", "seed"};
@@ -89,6 +94,11 @@ inline constexpr Parameter brushParameters[] = {
     number<&BrushParams::pointBlend>("point_blend", 0.01, 1, "gaps",
                                      "Share of the gap between two reference points over which "
                                      "one hands over to the other."),
+    number<&BrushParams::smoothNormals>("smooth_normals", 0, 1, "strip widths",
+                                        "Round how much of the surface normals are averaged before "
+                                        "strokes take their direction from them, so that large "
+                                        "strokes run on over fine bumps; 0 takes them as they "
+                                        "are."),
 };
 inline constexpr ParameterTable brushTable{"brush", "Strokes from a painted strip along the tone.",
                                            "002 eq. 3.2-3.11", brushParameters};

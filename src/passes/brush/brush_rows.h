@@ -9,6 +9,7 @@ namespace kagefude {
 /// One row of the four result planes.
 struct ColourRows {
   float *r, *g, *b, *a;
+  float* grain = nullptr;  ///< null: not wanted
 
   void store(int x, const Rgba& colour) {
     r[x] = colour[0];

@@ -121,6 +121,7 @@ void paintObjectRow(const BrushInput& in, const BrushAnchor& anchor, int first, 
     reader.place(taps);
     load(x + brushBlock, 1 - which);  // while the texels come
     reader.read(taps, grain);
+    if (out.grain) std::copy_n(grain, count, out.grain + x);
     placeColours(strip.grain.toneRows, strip.grain.lastToneLevel, block, grain, count, places);
     if (in.params.contrast == 1.0f && strip.opaque && allPresent(block, count))
       storePlainly(strip, places, x, count, out);

@@ -100,6 +100,19 @@ Rgba behindPaint(const Backdrop& backdrop, float alpha, int x, int y) {
 
 }  // namespace
 
+void layOver(const PaintViews& paint, const ColourViews& ground) {
+  parallelRows(paint.a.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < paint.a.width; ++x) {
+        const float behind = 1.0f - paint.a(x, y);
+        paint.r(x, y) += behind * ground.r(x, y);
+        paint.g(x, y) += behind * ground.g(x, y);
+        paint.b(x, y) += behind * ground.b(x, y);
+        paint.a(x, y) += behind * ground.a(x, y);
+      }
+  });
+}
+
 void layOverPicture(const PaintViews& paint, const ColourViews& picture,
                     std::span<const CoverageRank> ranks) {
   const Backdrop backdrop(picture, ranks);

@@ -11,6 +11,9 @@ struct PaintViews {
   View<float> r, g, b, a;
 };
 
+/// Associated "over": paint + (1 - alpha) x ground, in place.
+void layOver(const PaintViews& paint, const ColourViews& ground);
+
 /// **[ours]** Lays paint over a rendered picture, so that each thing is seen once.
 ///
 /// paint: scene-linear with associated alpha, its things met by coverage (blendByCoverage); becomes

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "compositor/finish_picture.h"
+#include "passes/edges/coverage_blend.h"
+#include "passes/ground/paper_tooth.h"
+
+namespace kagefude {
+
+// What a picture is painted on: output.background with [ground] and [paper].
+
+/// Whether the look's paint lies on a ground of its own or ends by [edges]; else it is laid over
+/// the beauty, or nothing, as it is.
+bool usesGround(const Look& look, const StyledSurfaces& styled);
+
+/// Whether what lays paint on its ground needs the grain of the strokes.
+bool keepsGrain(const Look& look, const StyledSurfaces& styled);
+
+/// The paper's surface at every pixel; empty planes where the look has no paper. Fixed to the world
+/// only where the camera is known.
+PaperTooth frameTooth(const FinishInput& in);
+
+/// What lies behind the paint, of every pixel; empty for a transparent background and for a beauty
+/// that the frame lacks. `alpha` is that of the paint, its things met by coverage: where it is 0
+/// the beauty is taken as it is, elsewhere what it shows nearby. Where the paint has gaps of its
+/// own (paper, dry brush) paper lies under things that stand before the beauty.
+ColourPlanes frameGround(const FinishInput& in, View<const float> alpha, const PaperTooth& tooth);
+
+}  // namespace kagefude

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "image/vec.h"
+#include "passes/edges/behind_paint.h"
+#include "passes/edges/painted_edge_params.h"
+
+namespace kagefude {
+
+/// What is known of a picture whose paint gets its edges.
+struct EdgePaint {
+  ColourViews own;                            ///< each pixel's paint, of the thing at its centre
+  View<const uint16_t> things;                ///< 0 = background, i -> params[i - 1]
+  std::span<const PaintedEdgeParams> params;  ///< widths in pixels
+  Vec3View position;           ///< world; with `eye` it tells what is in front; may be empty
+  V3f eye{0, 0, 0};            ///< of the camera
+  View<const float> distance;  ///< from the camera, only compared, where no position is given
+  View<const float> grain;     ///< of the strokes, mean 0 and variance 1
+  std::span<const uint32_t> coverageIds;   ///< each thing as the ranks name it
+  std::span<const CoverageRank> coverage;  ///< empty: edges run between pixels
+  ColourViews ground;                      ///< behind things; empty: nothing is known of it
+};
+
+/// **[ours]** Ends paint as a brush does. paint: associated, its things met by coverage; in place.
+///
+/// Near a border between two things (or a thing and the background) every pixel has a signed
+/// distance to it, positive in the thing in front (the nearer to the camera; background is behind
+/// everything), to the nearest pixel of its own that lies at the border, and from there by what the
+/// thing covers of the pixels on both sides, so to a fraction of a pixel. The grain of the strokes
+/// in front moves the border: distance + rough (g + overrun), g = 1.1 times the mean grain of nine
+/// places round the border, half of `rough` apart, and 0.2 times the pixel's, within ±1. Each
+/// side's paint goes on beyond the border as its mirror image. So strokes break and overrun by
+/// their own shape, and stay with the object as its strokes do. What a thing in front of the
+/// background leaves is empty.
+/// - lost: the step from one side to the other takes `lost` pixels more where both sides' means
+///   round the border are equally bright (roots of luminance), fading out at `lost_tone`.
+/// - rim: pigment is (1 + rim_strength f) times as dense, colour c^(1 + rim_strength f), f rising
+///   from the border to a quarter of `rim` and falling from there to its end.
+/// - dry: paint is left out where the grain is lower than a bound that rises towards the border.
+/// Pixels that no effect reaches keep their bits. Of a border the params of the thing in front
+/// hold; rim and dry gaps lie on its side. Depends on this frame alone; the same bits for any
+/// threads. Throws InputError when sizes differ. Cost: a nearest-site search, some hundred
+/// operations a pixel near borders.
+void paintEdges(const EdgePaint& in, const PaintViews& paint);
+
+}  // namespace kagefude

@@ -1,0 +1,228 @@
+#include "passes/edges/painted_edges.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace kagefude {
+namespace {
+
+constexpr int width = 24, height = 9, border = 12;
+
+/// Two things side by side, or one and the background: the left one (1) ends before column 12.
+struct Scene {
+  Floats r{width, height}, g{width, height}, b{width, height}, a{width, height, 1.0f};
+  Floats ownR, ownG, ownB, ownA;
+  Plane<uint16_t> things{width, height};
+  Floats distance{width, height}, grain{width, height, 0.0f};
+  Labels ids;
+  Floats share;
+  std::vector<PaintedEdgeParams> params = std::vector<PaintedEdgeParams>(2);
+
+  explicit Scene(uint16_t right, float left = 0.8f, float other = 0.2f) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const bool first = x < border;
+        things(x, y) = first ? uint16_t{1} : right;
+        const float value = first ? left : right ? other : 0.0f;
+        r(x, y) = g(x, y) = b(x, y) = value;
+        a(x, y) = first || right ? 1.0f : 0.0f;
+        distance(x, y) = first ? 1.0f : 2.0f;
+      }
+  }
+  void paint(const ColourViews& ground = {}) {
+    ownR = r.clone();
+    ownG = g.clone();
+    ownB = b.clone();
+    ownA = a.clone();
+    std::vector<CoverageRank> ranks;
+    if (!ids.empty()) ranks.push_back({ids, share});
+    const std::vector<uint32_t> own{1, 2};
+    EdgePaint in{{ownR, ownG, ownB, ownA}, things, params};
+    in.distance = distance;
+    in.grain = grain;
+    in.coverageIds = own;
+    in.coverage = ranks;
+    in.ground = ground;
+    paintEdges(in, {r, g, b, a});
+  }
+  bool isUntouched() const {
+    for (size_t i = 0; i < r.view().pixels(); ++i)
+      if (r.row(0)[i] != ownR.row(0)[i] || a.row(0)[i] != ownA.row(0)[i]) return false;
+    return true;
+  }
+};
+
+TEST(PaintedEdges, WithoutAnyEffectEveryBitStays) {
+  Scene scene(2);
+  scene.paint();
+  EXPECT_TRUE(scene.isUntouched());
+}
+
+TEST(PaintedEdges, StrokesAboveTheMeanOverrunAndBelowItBreak) {
+  for (const float side : {1.0f, -1.0f}) {
+    Scene scene(0);
+    scene.params[0].rough = 3;
+    std::fill_n(scene.grain.row(0), width * height, 1.5f * side);
+    scene.paint();
+    // The border moves by three pixels; beyond it a pixel's step of 1.45.
+    const int moved = border + int(3 * side);
+    EXPECT_NEAR(scene.a(moved - 2, 4), 1.0f, 1e-5f) << side;
+    EXPECT_NEAR(scene.a(moved + 1, 4), 0.0f, 1e-5f) << side;
+    EXPECT_NEAR(scene.a(moved - 1, 4) + scene.a(moved, 4), 1.0f, 1e-5f) << side;
+    EXPECT_NEAR(scene.r(moved - 1, 4), 0.8f * scene.a(moved - 1, 4), 1e-5f);
+  }
+}
+
+TEST(PaintedEdges, OverrunChoosesTheSide) {
+  for (const float way : {1.0f, -1.0f}) {
+    Scene scene(0);
+    scene.params[0].rough = 2;
+    scene.params[0].overrun = way;
+    scene.paint();
+    EXPECT_EQ(scene.a(border, 4) > 0.9f, way > 0);
+    EXPECT_EQ(scene.a(border - 1, 4) < 0.1f, way < 0);
+  }
+}
+
+TEST(PaintedEdges, TheThingInFrontDecidesByItsOwnGrain) {
+  Scene scene(2);
+  scene.params[0].rough = scene.params[1].rough = 3;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) scene.grain(x, y) = x < border ? 1.5f : -3.0f;
+  scene.paint();
+  EXPECT_NEAR(scene.r(border + 1, 4), 0.8f, 1e-5f);
+  EXPECT_NEAR(scene.r(border + 4, 4), 0.2f, 1e-5f);
+  for (int x = 0; x < width; ++x) EXPECT_EQ(scene.a(x, 4), 1.0f);
+  // The other way round the right one is in front and breaks.
+  Scene turned(2);
+  turned.params = scene.params;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      turned.grain(x, y) = x < border ? 1.5f : -3.0f;
+      turned.distance(x, y) = x < border ? 2.0f : 1.0f;
+    }
+  turned.paint();
+  EXPECT_NEAR(turned.r(border + 1, 4), 0.8f, 1e-5f);
+}
+
+TEST(PaintedEdges, CoveragePlacesTheBorderWithinThePixel) {
+  // The last covered column holds 1, then 0.25: the border lies a quarter of a pixel further.
+  Scene scene(0);
+  scene.params[0].rough = 1e-4f;
+  scene.ids = Labels(width, height, 1u);
+  scene.share = Floats(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      scene.share(x, y) = x < border ? 1.0f : x == border ? 0.25f : 0.0f;
+  scene.paint();
+  EXPECT_NEAR(scene.a(border - 1, 4), 1.0f, 1e-3f);
+  EXPECT_NEAR(scene.a(border, 4), 0.25f, 1e-3f);
+  EXPECT_NEAR(scene.a(border + 1, 4), 0.0f, 1e-3f);
+}
+
+TEST(PaintedEdges, TheRimOfAWashIsDenserAndEndsWhereItsWidthEnds) {
+  Scene scene(0, 0.5f);
+  scene.params[0].rim = 8;
+  scene.params[0].rimStrength = 1;
+  scene.paint();
+  // At 1.5 pixels of 8: t = 0.1875, eased(0.75) = 0.84375.
+  EXPECT_NEAR(scene.r(border - 2, 4), std::pow(0.5f, 1.84375f), 1e-4f);
+  EXPECT_EQ(scene.r(border - 9, 4), 0.5f);
+  EXPECT_EQ(scene.r(border, 4), 0.0f);
+  for (int x = 0; x < border; ++x) EXPECT_EQ(scene.a(x, 4), 1.0f);
+}
+
+TEST(PaintedEdges, DryPaintIsLeftOutInHollowsTowardsTheEdgeAlone) {
+  Scene scene(0);
+  scene.params[0].dry = 1;
+  scene.params[0].dryWidth = 6;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) scene.grain(x, y) = y == 2 ? -3.0f : 3.0f;
+  scene.paint();
+  EXPECT_EQ(scene.a(border - 1, 2), 0.0f);
+  EXPECT_EQ(scene.r(border - 1, 2), 0.0f);
+  EXPECT_EQ(scene.a(border - 1, 6), 1.0f);
+  EXPECT_EQ(scene.a(border - 7, 2), 1.0f);
+}
+
+TEST(PaintedEdges, EdgesAreLostWhereTonesMeetAndKeptWhereTheyDoNot) {
+  Scene close(2, 0.50f, 0.52f), far(2, 0.8f, 0.2f);
+  for (Scene* scene : {&close, &far}) {
+    for (PaintedEdgeParams& params : scene->params) params.lost = 8;
+    scene->paint();
+  }
+  EXPECT_TRUE(far.isUntouched());
+  EXPECT_GT(close.r(border - 3, 4), 0.5001f);
+  EXPECT_LT(close.r(border + 2, 4), 0.5199f);
+  for (int x = 1; x < width; ++x) EXPECT_GE(close.r(x, 4), close.r(x - 1, 4) - 1e-6f);
+}
+
+TEST(PaintedEdges, AgainstTheBackgroundAnEdgeIsLostOnlyWhereTheGroundIsKnown) {
+  Scene unknown(0, 0.5f), known(0, 0.5f);
+  const Floats ground(width, height, 0.5f), opaque(width, height, 1.0f);
+  unknown.params[0].lost = known.params[0].lost = 8;
+  unknown.paint();
+  known.paint({ground, ground, ground, opaque});
+  EXPECT_TRUE(unknown.isUntouched());
+  EXPECT_LT(known.a(border - 2, 4), 0.9f);
+  EXPECT_GT(known.a(border + 1, 4), 0.1f);
+}
+
+TEST(PaintedEdges, SettingsOfOneStyleLeaveOtherBordersAlone) {
+  Scene scene(2);
+  scene.params.resize(3);
+  scene.params[2].rough = 4;  // of a thing that is not there
+  scene.paint();
+  EXPECT_TRUE(scene.isUntouched());
+}
+
+TEST(PaintedEdges, AThingOfOnePixelAndAFrameOfOneAreTaken) {
+  Scene scene(0);
+  std::fill_n(scene.things.row(0), width * height, uint16_t{0});
+  scene.things(5, 5) = 1;
+  scene.params[0].rough = 2;
+  scene.paint();
+  EXPECT_TRUE(std::isfinite(scene.a(5, 5)));
+  Floats one(1, 1, 1.0f);
+  const Plane<uint16_t> thing(1, 1, uint16_t{1});
+  const std::vector<PaintedEdgeParams> params(1, scene.params[0]);
+  const Floats own = one.clone();
+  EdgePaint in{{own, own, own, own}, thing, params};
+  in.grain = own;
+  paintEdges(in, {one, one, one, one});
+  EXPECT_EQ(one(0, 0), 1.0f);
+}
+
+TEST(PaintedEdges, ThreadsChangeNothing) {
+  const auto made = [] {
+    Scene scene(2);
+    for (PaintedEdgeParams& params : scene.params) {
+      params.rough = 3;
+      params.rim = 5;
+      params.dry = 0.5f;
+      params.lost = 6;
+    }
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) scene.grain(x, y) = float((x * 7 + y * 13) % 11) / 4 - 1.2f;
+    scene.paint();
+    return scene.r.clone();
+  };
+  const Floats many = made();
+  tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const Floats single = made();
+  for (size_t i = 0; i < many.view().pixels(); ++i) ASSERT_EQ(many.row(0)[i], single.row(0)[i]);
+}
+
+TEST(PaintedEdges, PlanesOfAnotherSizeAreRefused) {
+  Scene scene(2);
+  scene.params[0].rough = 1;
+  scene.grain = Floats(3, 3);
+  EXPECT_THROW(scene.paint(), InputError);
+}
+
+}  // namespace
+}  // namespace kagefude
