@@ -89,10 +89,10 @@ void weigh(const SidecarLight& source, const WholeShot* shot, const LightLook* s
       weighLight(source, shot, light.light, moved, settings ? settings->light.weight : -1.0f);
 }
 
-ShadowMethod arrangementMethod(MaskArrangement arrangement) {
+ShadowMethod arrangementMethod(MaskArrangement arrangement, bool hasDepthMap) {
   switch (arrangement) {
     case MaskArrangement::pair:
-      return ShadowMethod::pair;
+      return hasDepthMap ? ShadowMethod::pairDepth : ShadowMethod::pair;
     case MaskArrangement::line:
       return ShadowMethod::line;
     case MaskArrangement::disc:
@@ -150,7 +150,8 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, const Whole
     return light;
   }
   if (light.method == ShadowMethod::automatic) {
-    light.method = source.masks                  ? arrangementMethod(source.masks->arrangement)
+    light.method = source.masks
+                       ? arrangementMethod(source.masks->arrangement, source.depthMap.has_value())
                    : !source.tracedLayer.empty() ? ShadowMethod::traced
                    : source.depthMap             ? ShadowMethod::pcf
                    : hasCasters                  ? casterMethod(light.light.radius)
@@ -195,7 +196,8 @@ std::vector<V2f> placesFrom(const LightParams& params) {
 }
 
 ShadowMethod methodFor(const LightParams& params, bool hasCasters) {
-  if (params.masks.size() == 2) return ShadowMethod::pair;
+  if (params.masks.size() == 2)
+    return params.depthMap.empty() ? ShadowMethod::pair : ShadowMethod::pairDepth;
   if (params.masks.size() > 2) return ShadowMethod::disc;
   if (!params.depthMap.empty()) return ShadowMethod::pcf;
   return hasCasters ? casterMethod(params.radius) : ShadowMethod::none;
@@ -295,6 +297,22 @@ void checkMethod(const FrameLight& light, bool hasCasters) {
   checkMasks(light, method);
 }
 
+/// Whether the light is a sphere, or a sun, whose masks a depth map can be held against.
+bool isRound(const FrameLight& light) {
+  const std::optional<LightGeometry>& geometry = light.geometry;
+  if (!geometry) return false;
+  const float u = geometry->u.length(), v = geometry->v.length();
+  return (geometry->sphere || geometry->sun) && std::fabs(u - v) <= 0.01f * u;
+}
+
+bool readsDepthMap(const FrameLight& light) {
+  const ShadowNeeds& needs = entryOf(light.method).needs;
+  const LightShapeParams& params = light.passes.lightShape;
+  const bool styled = params.grow != 0 || params.soften > 0 || params.abstract > 0;
+  return needs.depthMap ||
+         (needs.depthMapHelps && light.depthMap && isRound(light) && params.depthMap && !styled);
+}
+
 /// The look's own scene, the same in every frame, over what the sidecar says.
 void sizeByScene(const SceneParams& scene, FrameLight& light) {
   light.subjectCentre = vectorFrom(scene.centre, light.subjectCentre);
@@ -313,6 +331,7 @@ std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
     if (!matchesAny(light.name, look.shadow.lights) || (settings && !settings->light.on)) continue;
     checkMethod(light, hasCasters);
     sizeByScene(look.scene, light);
+    light.readsDepthMap = readsDepthMap(light);
     for (std::string& mask : light.maskChannels) mask = requireMaskChannel(image, mask);
     if (!light.tracedChannel.empty())
       light.tracedChannel = requireMaskChannel(image, light.tracedChannel);

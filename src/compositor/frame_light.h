@@ -38,6 +38,7 @@ struct FrameLight {
   V3f towardsFar{0, 0, 0};                ///< a pair's farther mask, from the light's centre
   std::string tracedChannel;              ///< method traced: the visibility itself
   std::optional<DepthMapSource> depthMap;
+  bool readsDepthMap = false;  ///< the method needs or uses it
   int castPlaces = 0;          ///< method places: masks that are cut from the casters
   std::string receiver;        ///< methods planar and blob
   std::filesystem::path blob;  ///< picture of the blob; empty: a soft round one

@@ -73,7 +73,7 @@ size_t chunkBytes(const FramePlan& plan, size_t bytesPerPixel) {
 size_t depthMapBytes(const FramePlan& plan) {
   size_t bytes = 0;
   for (const FrameLight& light : plan.lights) {
-    if (!entryOf(light.method).needs.depthMap) continue;
+    if (!light.readsDepthMap) continue;
     const ImageFile map = openImage(light.depthMap->file);
     bytes += 4 * static_cast<size_t>(map.width) * static_cast<size_t>(map.height);
   }

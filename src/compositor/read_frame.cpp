@@ -206,7 +206,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
       mask = Floats();
     }
     own.traced = std::move(traced[i]);
-    if (entryOf(plan.lights[i].method).needs.depthMap)
+    if (plan.lights[i].readsDepthMap)
       own.depthMap = readDepthMap(*plan.lights[i].depthMap);
   }
   planes.objectId = idsFrom(objects, plan.idSource);

@@ -27,8 +27,8 @@ void addAov(StageKey& key, const std::optional<Aov>& aov) {
 void addLightReading(StageKey& key, const FrameLight& light) {
   const ShadowNeeds& needs = entryOf(light.method).needs;
   addNames(key, light.maskChannels);
-  key.add(light.tracedChannel).add(needs.camera).add(needs.depthMap && light.depthMap);
-  if (needs.depthMap && light.depthMap)
+  key.add(light.tracedChannel).add(needs.camera).add(light.readsDepthMap);
+  if (light.readsDepthMap)
     key.add(light.depthMap->file.native()).add(light.depthMap->channel);
 }
 

@@ -12,6 +12,7 @@
 #include "passes/casters/planar_projection.h"
 #include "passes/casters/shadow_volume.h"
 #include "passes/casters/texture_shadow.h"
+#include "passes/depth_map/pair_depth.h"
 #include "passes/depth_map/pcf.h"
 #include "passes/depth_map/pcss.h"
 #include "passes/edges/outline.h"
@@ -34,6 +35,7 @@ namespace kagefude {
 struct PassParams {
   SurfacesParams surfaces;
   PairParams pair;
+  PairDepthParams pairDepth;
   LightShapeParams lightShape;
   PcfParams pcf;
   PcssParams pcss;
@@ -137,6 +139,7 @@ inline constexpr LookSection lookSections[] = {
     detail::ofLook<&Look::output>(outputTable),
     detail::ofPass<&PassParams::surfaces>(surfacesTable, Scope::look),
     detail::ofPass<&PassParams::pair>(pairTable, Scope::light),
+    detail::ofPass<&PassParams::pairDepth>(pairDepthTable, Scope::light),
     detail::ofPass<&PassParams::lightShape>(lightShapeTable, Scope::light),
     detail::ofPass<&PassParams::pcf>(pcfTable, Scope::light),
     detail::ofPass<&PassParams::pcss>(pcssTable, Scope::light),

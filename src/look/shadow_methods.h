@@ -17,6 +17,7 @@ using ShadowFunction = LightVisibility (*)(const ShadowWork&);
 
 LightVisibility noShadow(const ShadowWork&);
 LightVisibility pairShadow(const ShadowWork&);
+LightVisibility pairDepthShadow(const ShadowWork&);
 LightVisibility lightShapeShadow(const ShadowWork&);
 LightVisibility tracedShadow(const ShadowWork&);
 LightVisibility pcfShadow(const ShadowWork&);
@@ -32,6 +33,7 @@ enum class ShadowMethod {
   automatic,
   none,
   pair,
+  pairDepth,
   line,
   disc,
   traced,
@@ -57,9 +59,10 @@ struct ShadowNeeds {
   MaskNeed masks = {};
   bool traced = false;  ///< the visibility itself, traced by the renderer
   bool depthMap = false;
-  bool casters = false;   ///< the shapes that cast shadows
-  bool camera = false;    ///< the sidecar's camera; comes with the casters
-  bool receiver = false;  ///< shadow.receiver
+  bool depthMapHelps = false;  ///< read where the light is round and has one, unless switched off
+  bool casters = false;        ///< the shapes that cast shadows
+  bool camera = false;         ///< the sidecar's camera; comes with the casters
+  bool receiver = false;       ///< shadow.receiver
 };
 
 enum class Smoothing {
@@ -93,8 +96,8 @@ inline constexpr ShadowNeeds needCasters{.casters = true, .camera = true};
 inline constexpr std::array shadowMethods{
     ShadowMethodEntry{
         ShadowMethod::automatic, "auto",
-        "the masks' own arrangement, then what was traced, then the depth map, then the "
-        "casters, then none",
+        "the masks' own arrangement (a pair with its depth map: pair_depth), then what was "
+        "traced, then the depth map, then the casters, then none",
         nullptr},
     ShadowMethodEntry{ShadowMethod::none, "none", "no shadow", noShadow},
     ShadowMethodEntry{ShadowMethod::pair,
@@ -104,6 +107,13 @@ inline constexpr std::array shadowMethods{
                       Smoothing::always,
                       {.masks = {2, 2, "pair"}},
                       {.perMask = 4}},
+    ShadowMethodEntry{ShadowMethod::pairDepth,
+                      "pair_depth",
+                      "soft, from the depth map thrown back on the light, held to two masks",
+                      pairDepthShadow,
+                      Smoothing::whereAsked,
+                      {.masks = {2, 2, "pair"}, .depthMap = true},
+                      {.perPixel = 8, .perMask = 4}},
     ShadowMethodEntry{ShadowMethod::line,
                       "line",
                       "soft, from masks along a line across the light",
@@ -116,8 +126,8 @@ inline constexpr std::array shadowMethods{
                       "soft, from masks on the light's disc",
                       lightShapeShadow,
                       Smoothing::whereAsked,
-                      {.masks = {5, 0, "disc:9"}},
-                      {.perMask = 4}},
+                      {.masks = {5, 0, "disc:9"}, .depthMapHelps = true},
+                      {.perPixel = 10, .perMask = 4}},
     ShadowMethodEntry{ShadowMethod::traced,
                       "traced",
                       "soft, as the renderer traced it",

@@ -25,6 +25,11 @@ class DepthPyramid {
   };
   /// The finest level from 1 on at which `texels` texels in a row touch at most two columns.
   Level levelFor(int texels) const;
+  /// Level `shift`, at least 1.
+  Level level(int shift) const {
+    const auto at = static_cast<size_t>(shift - 1);
+    return {nearest_[at], farthest_[at], shift};
+  }
 
  private:
   std::vector<Floats> nearest_, farthest_;  ///< level 1 and up; each halves the one below

@@ -137,7 +137,7 @@ struct Inputs {
 };
 
 void resolvePixel(const Inputs& in, const ShadowFollow::Band* follow, int x, int y,
-                  float& visibility, float& confidence) {
+                  float& visibility, float& confidence, uint8_t& unsure) {
   const uint8_t kind = in.classes(x, y);
   if (kind == background) return;
   float height[mostMasks];
@@ -152,6 +152,7 @@ void resolvePixel(const Inputs& in, const ShadowFollow::Band* follow, int x, int
     if (answer.trust < 1) visibility = in.share.of(s.values());
     confidence = s.confidence(toFrameEdge(x, y, in.labels.width, in.labels.height));
   }
+  if (answer.trust > 0) unsure = 1;
   visibility += answer.trust * (answer.visibility - visibility);
 }
 
@@ -164,22 +165,26 @@ void resolveRows(const Inputs& in, int y0, int y1, LightShapeResult& result) {
     const uint8_t* const kinds = in.classes.row(y);
     float *const visibility = result.visibility.row(y), *const confidence =
                                                             result.confidence.row(y);
+    uint8_t* const unsure = result.unsure.row(y);
     for (int x = 0; x < width; ++x) {
       visibility[x] = kinds[x] == umbra ? 0.0f : 1.0f;
       confidence[x] = 1.0f;
+      unsure[x] = kinds[x] == penumbra;
     }
     for (int from = 0; from < width; from += ShadowFollow::run) {
       const int end = std::min(from + ShadowFollow::run, width);
       const auto [first, last] = in.wanted.ends(from, end, y);
       const bool all = follow && follow->mayAnswer(from, y);
       for (int x = all ? from : first; x < (all ? end : last); ++x)
-        resolvePixel(in, follow, x, y, visibility[x], confidence[x]);
+        resolvePixel(in, follow, x, y, visibility[x], confidence[x], unsure[x]);
     }
   }
 }
 
 LightShapeResult resolve(const Inputs& in) {
-  LightShapeResult result{{in.labels.width, in.labels.height}, {in.labels.width, in.labels.height}};
+  LightShapeResult result{{in.labels.width, in.labels.height},
+                          {in.labels.width, in.labels.height},
+                          {in.labels.width, in.labels.height}};
   parallelRows(in.labels.height, bandRows,
                [&](int y0, int y1) { resolveRows(in, y0, y1, result); });
   return result;

@@ -15,7 +15,8 @@ enum class DiscIntegral { wedges, linear };
 struct LightShapeParams {
   float lightSize = 1.0f;  ///< share of the rendered light's radius
   DiscIntegral disc = DiscIntegral::wedges;
-  bool follow = true;  ///< follow shadows that are thinner than their shift between masks
+  bool follow = true;    ///< follow shadows that are thinner than their shift between masks
+  bool depthMap = true;  ///< held against the light's depth map
   SearchBound bound = SearchBound::object;
   float grow = 0.0f;    ///< pixels by which shadows grow; negative: shrink
   float soften = 0.0f;  ///< further light radius, as a share of the rendered one
@@ -32,6 +33,9 @@ inline constexpr Parameter lightShapeParameters[] = {
         "How a disc of masks is integrated: piecewise over wedges, or by one linear fit."),
     plain<&LightShapeParams::follow>(
         "follow", "Follow shadows thinner than their shift from mask to mask (wedges only)."),
+    plain<&LightShapeParams::depthMap>(
+        "depth_map",
+        "Round lights with a depth map: take the map's visibility where the masks bear it out."),
     choice<&LightShapeParams::bound>(
         "bound", searchBoundNames,
         "What distances must not leave: nothing, the object, or the smoothly connected surface."),
@@ -62,6 +66,7 @@ struct LightGeometry {
 struct LightShapeResult {
   Floats visibility;
   Floats confidence;  ///< 1 where distances are measured, falling to 0 where they are extrapolated
+  Bytes unsure;       ///< 1 where masks disagree or a shadow was followed, else 0
 };
 
 /// Visibility of a disc, rectangle or line light from K hard masks of known places: the share of

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+
+#include "passes/depth_map/back_projection.h"
+#include "passes/light_shape/light_shape.h"
+
+namespace kagefude {
+
+/// Takes the visibility of a depth map thrown back on the light (back_projection.h) into what masks
+/// gave, at and within four pixels of where they were unsure, as far as the masks bear the map out:
+/// its weight is 1 where every mask sees what the map says of its place, falling to 0 where a third
+/// of them do not. The map holds thin shadows that lie between the masks' places, and wide ones
+/// without steps; the masks hold what touches its receiver, and edges finer than the map's texels.
+///
+/// masks: those of which `shape` was made; a round light's. Others as backProject. Confidence rises
+/// with the map's weight.
+void holdToMap(std::span<const PlacedMask> masks, Vec3View position, Vec3View normal,
+               View<const uint32_t> surfaces, const ShadowMap& map, float lightRadius,
+               LightShapeResult& shape);
+
+}  // namespace kagefude
