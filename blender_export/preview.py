@@ -80,7 +80,8 @@ class Comp:
 
 
 class Live:
-    """`kagefude live` on the previewed frame; it opens the browser itself, and ends when Blender quits."""
+    """`kagefude live` on the previewed frame; it opens the browser itself. It ends when Blender does,
+    even by a crash: its standard input is a pipe whose other end only Blender has."""
     running = None
     shown = None
 
@@ -93,8 +94,8 @@ class Live:
                 return
             cls.close()
         cls.running, cls.shown = subprocess.Popen(
-            [wanted[0], "live", *wanted[1:]], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL), wanted
+            [wanted[0], "live", *wanted[1:], "--until-closed"], stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL), wanted
 
     @classmethod
     def close(cls):

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,7 +26,7 @@ struct LiveOptions {
   std::vector<std::string> views;
   uint16_t port = 0;
   int size = 1024;
-  bool noOpen = false;
+  bool noOpen = false, untilClosed = false;
 };
 
 std::vector<LiveInput> inputsOf(const LiveOptions& options) {
@@ -47,6 +48,17 @@ void openInBrowser(const std::string& url) {
   pid_t child = 0;
   if (posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments, environ) == 0)
     std::thread([child] { waitpid(child, nullptr, 0); }).detach();
+}
+
+/// Until whoever started the program has closed its end of the standard input, however it ended.
+void waitForEnd(const std::stop_token& stop) {
+  constexpr int lookAgain = 200;  // milliseconds
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  while (!stop.stop_requested()) {
+    if (::poll(&input, 1, lookAgain) <= 0) continue;
+    char said[256];  // which means nothing
+    if (::read(STDIN_FILENO, said, sizeof said) <= 0) return;
+  }
 }
 
 void waitFor(const std::stop_token& stop) {
@@ -72,7 +84,10 @@ int serve(const LiveOptions& options, Console& console) {
   console.result(server.address().url());
   console.out.flush();
   if (!options.noOpen) openInBrowser(server.address().url());
-  waitFor(interrupts.token());
+  if (options.untilClosed)
+    waitForEnd(interrupts.token());
+  else
+    waitFor(interrupts.token());
   session.end();
   return interrupts.exitCode();
 }
@@ -94,6 +109,8 @@ void addLiveCommand(CLI::App& app, Console& console, int& exit) {
                    "longer side of the picture while a knob turns, 64 to 16384 pixels (1024)")
       ->check(CLI::Range(64, 16384));
   command->add_flag("--no-open", options->noOpen, "only print the address");
+  command->add_flag("--until-closed", options->untilClosed,
+                    "end when standard input does: with the program that started this one");
   command->callback([options, &console, &exit] { exit = serve(*options, console); });
 }
 

@@ -126,9 +126,9 @@ void paintStyleEdges(const FramePlan& plan, const FramePlanes& planes, const Sty
   std::vector<uint32_t> ids;
   if (!ranks.empty()) ids = cryptomatteIdsOf(plan, planes.objectId, styled);
   EdgePaint paint{{own.r, own.g, own.b, own.a}, styled.anchorIndex, styled.edges};
-  if (plan.sidecar) {
+  if (plan.sidecar || planes.rays) {
     paint.position = planes.position;
-    paint.eye = V3f(plan.sidecar->camera.position);
+    paint.eye = V3f(plan.sidecar ? plan.sidecar->camera.position : planes.rays->eye);
   } else {
     paint.distance = planes.depth;
   }

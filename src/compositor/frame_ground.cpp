@@ -38,14 +38,22 @@ ColourPlanes flatGround(const FinishInput& in, const V3f& colour, const PaperToo
   ColourPlanes ground = emptyColours(in);
   parallelRows(in.planes.height, [&](int first, int end) {
     for (int y = first; y < end; ++y) {
-      std::fill_n(ground.r.row(y), in.planes.width, colour.x);
-      std::fill_n(ground.g.row(y), in.planes.width, colour.y);
-      std::fill_n(ground.b.row(y), in.planes.width, colour.z);
-      std::fill_n(ground.a.row(y), in.planes.width, 1.0f);
+      for (int x = 0; x < in.planes.width; ++x) {
+        const float factor =
+            tooth.slope.empty() ? 1.0f : reliefFactor(tooth.slope(x, y), in.look.passes.paper);
+        ground.r(x, y) = colour.x * factor;
+        ground.g(x, y) = colour.y * factor;
+        ground.b(x, y) = colour.z * factor;
+        ground.a(x, y) = 1.0f;
+      }
     }
   });
-  if (!tooth.slope.empty()) shadeRelief(viewsOf(ground), tooth.slope, in.look.passes.paper);
   return ground;
+}
+
+/// Whether no painted thing has a part of the pixel.
+bool isOpen(const FinishInput& in, View<const float> alpha, int x, int y) {
+  return in.styled.anchorIndex(x, y) == 0 && alpha(x, y) == 0.0f;
 }
 
 /// The beauty where nothing is painted, and beside what is.
@@ -53,7 +61,7 @@ ColourPlanes openBeauty(const FinishInput& in, View<const float> alpha) {
   Bytes open(in.planes.width, in.planes.height);
   parallelRows(in.planes.height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
-      for (int x = 0; x < in.planes.width; ++x) open(x, y) = alpha(x, y) == 0.0f ? 1 : 0;
+      for (int x = 0; x < in.planes.width; ++x) open(x, y) = isOpen(in, alpha, x, y) ? 1 : 0;
   });
   const Vec3Plane& beauty = in.planes.beauty;
   return extendBehindThings({beauty.x, beauty.y, beauty.z, in.planes.alpha}, open);
@@ -75,7 +83,7 @@ void putPaperUnderThings(const FinishInput& in, View<const float> alpha, const P
   parallelRows(in.planes.height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < in.planes.width; ++x) {
-        const float covered = alpha(x, y) == 0.0f ? 0.0f : coveredShare(in, x, y);
+        const float covered = isOpen(in, alpha, x, y) ? 0.0f : coveredShare(in, x, y);
         if (covered <= 0.0f) continue;
         const float beside = 1.0f - covered, gaps = std::max(covered - alpha(x, y), 0.0f);
         const float share = beside + gaps > 0.0f ? gaps / (beside + gaps) : 1.0f;

@@ -162,24 +162,27 @@ int StripSet::indexOf(const std::string& name) const {
 }
 
 StripSet::StripSet(const Look& look, const Colour& colour) : colour_(colour) {
-  load(look, nullptr, {});
+  Loaded none;
+  load(look, none);
 }
 
-StripSet::StripSet(const Look& look, const Colour& colour, StripSet& other,
-                   const std::set<std::string>& kept)
-    : colour_(colour) {
-  load(look, &other, kept);
+StripSet::StripSet(const Look& look, const Colour& colour, Loaded& loaded) : colour_(colour) {
+  load(look, loaded);
 }
 
-/// A strip that is there; null for none, and for the neutral one until it was asked for.
-Strip* StripSet::find(const std::string& name) {
-  const auto found = indices_.find(name);
-  if (found == indices_.end()) return nullptr;
-  Strip& strip = strips_[static_cast<size_t>(found->second)];
-  return strip.levels.empty() ? nullptr : &strip;
+/// The neutral strip is empty until it was asked for.
+StripSet::Loaded StripSet::release() {
+  Loaded loaded;
+  for (const auto& [name, index] : indices_) {
+    Strip& strip = strips_[static_cast<size_t>(index)];
+    if (!strip.levels.empty()) loaded.emplace(name, std::move(strip));
+  }
+  strips_.clear();
+  indices_.clear();
+  return loaded;
 }
 
-void StripSet::load(const Look& look, StripSet* other, const std::set<std::string>& kept) {
+void StripSet::load(const Look& look, Loaded& loaded) {
   std::vector<std::string> names = {StyleParams{}.strip};
   for (std::string& name : paintedFiles(look)) names.push_back(std::move(name));
   if (look.output.background == Background::picture) picture_ = look.passes.ground.picture;
@@ -187,14 +190,11 @@ void StripSet::load(const Look& look, StripSet* other, const std::set<std::strin
   for (const std::string& name : names)
     if (indices_.emplace(name, static_cast<int>(distinct.size())).second) distinct.push_back(name);
   strips_.resize(distinct.size());
-  const auto there = [&](const std::string& name) {
-    return other && kept.contains(name) ? other->find(name) : nullptr;
-  };
   std::vector<std::exception_ptr> errors(distinct.size());
   parallelRows(static_cast<int>(distinct.size()) - 1, 1, [&](int first, int) {
     const auto i = static_cast<size_t>(first) + 1;
     try {
-      if (!there(distinct[i])) strips_[i] = loadStrip(look, colour_, distinct[i]);
+      if (!loaded.contains(distinct[i])) strips_[i] = loadStrip(look, colour_, distinct[i]);
     } catch (...) {
       errors[i] = std::current_exception();
     }
@@ -202,8 +202,8 @@ void StripSet::load(const Look& look, StripSet* other, const std::set<std::strin
   for (const std::exception_ptr& error : errors)  // the first of the look, whoever was faster
     if (error) std::rethrow_exception(error);
   for (size_t i = 0; i < distinct.size(); ++i)
-    if (Strip* strip = there(distinct[i])) {
-      strips_[i] = std::move(*strip);
+    if (auto there = loaded.extract(distinct[i])) {
+      strips_[i] = std::move(there.mapped());
       if (i == 0) tbb::collaborative_call_once(neutral_, [] {});
     }
 }

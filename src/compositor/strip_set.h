@@ -3,7 +3,6 @@
 #include <tbb/collaborative_call_once.h>
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -21,11 +20,14 @@ class StripSet {
   /// built-in name is unknown. `colour` must outlive the set.
   StripSet(const Look& look, const Colour& colour);
   StripSet(const Look& look, Colour&& colour) = delete;
-  /// The same, but takes the strips named in `kept` over from `other`, where it has them. Whoever
-  /// says so answers for it that they would be loaded alike. Afterwards `other` lacks them, unless
-  /// this throws.
-  StripSet(const Look& look, const Colour& colour, StripSet& other,
-           const std::set<std::string>& kept);
+  /// By its name, a strip that was loaded before.
+  using Loaded = std::map<std::string, Strip>;
+  /// The same, but takes strips out of `loaded`, where they are. Whoever has put them there answers
+  /// for it that they would be loaded alike now. When this throws, all are where they were.
+  StripSet(const Look& look, const Colour& colour, Loaded& loaded);
+
+  /// Every strip that was loaded. Afterwards this has none.
+  Loaded release();
 
   /// The index of a style's strip in strips(); "builtin:neutral" for surfaces without a style. That
   /// one is painted when it is first asked for: many looks leave no surface to it.
@@ -37,8 +39,7 @@ class StripSet {
   }
 
  private:
-  Strip* find(const std::string& name);
-  void load(const Look& look, StripSet* other, const std::set<std::string>& kept);
+  void load(const Look& look, Loaded& loaded);
 
   const Colour& colour_;
   mutable std::vector<Strip> strips_;  ///< the first is the neutral one, empty until asked for

@@ -63,8 +63,8 @@ MHD_Result queue(MHD_Connection* connection, const HttpResponse& answer) {
   return queued;
 }
 
-HttpResponse tooLarge() {
-  return {.status = 413, .body = fmt::format("a body has at most {} bytes\n", mostBody)};
+HttpResponse tooLarge(size_t most) {
+  return {.status = 413, .body = fmt::format("this may have at most {} bytes\n", most)};
 }
 
 /// A socket of our own, so that its port is known before the first request can come. Only what
@@ -90,13 +90,13 @@ int listenOnLoopback(uint16_t port, uint16_t& taken) {
 }
 
 /// Whether the client says beforehand that the body is too large, or not in a number.
-bool claimsTooMuch(MHD_Connection* connection) {
+bool claimsTooMuch(MHD_Connection* connection, size_t most) {
   const std::string length = headerOf(connection, MHD_HTTP_HEADER_CONTENT_LENGTH);
   if (length.empty()) return false;
   constexpr size_t digits = 9;
   if (length.size() > digits || length.find_first_not_of("0123456789") != std::string::npos)
     return true;
-  return std::stoul(length) > mostBody;
+  return std::stoul(length) > most;
 }
 
 }  // namespace
@@ -120,7 +120,8 @@ struct HttpServer::State {
       request.origin = headerOf(connection, MHD_HTTP_HEADER_ORIGIN);
       request.fetchSite = headerOf(connection, "Sec-Fetch-Site");
       if (const auto refused = refuse(request, address)) return queue(connection, *refused);
-      if (claimsTooMuch(connection)) return queue(connection, tooLarge());
+      const size_t most = mostBody(request);
+      if (claimsTooMuch(connection, most)) return queue(connection, tooLarge(most));
       Microhttpd::loaded().getConnectionValues(connection, MHD_GET_ARGUMENT_KIND, &addQuery,
                                                &request.query);
       return MHD_YES;
@@ -128,7 +129,7 @@ struct HttpServer::State {
     std::string& body = incoming->request.body;
     if (*size > 0) {
       // What has no length is read to its limit; then the connection is cut.
-      if (body.size() + *size > mostBody) return MHD_NO;
+      if (body.size() + *size > mostBody(incoming->request)) return MHD_NO;
       body.append(data, *size);
       *size = 0;
       return MHD_YES;

@@ -29,7 +29,7 @@ class HttpServer {
   using Answer = std::function<HttpResponse(const HttpRequest&)>;
 
   /// Listens on `port` (0: any that is free) and answers from then on, each connection in a thread
-  /// of its own, at most 24 at a time; headers may take 32 KiB, bodies mostBody, a silent
+  /// of its own, at most 24 at a time; headers may take 32 KiB, bodies mostBody(), a silent
   /// connection 60 s. What page_guard.h refuses never reaches `answer`, and its body is not read.
   /// What `answer` throws becomes a 500 with no more than that. Every response forbids framing,
   /// sniffing, foreign scripts, caches and referrers. Throws OutputError when the port is taken.

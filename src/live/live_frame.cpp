@@ -1,7 +1,5 @@
 #include "live/live_frame.h"
 
-#include <set>
-
 #include "compositor/read_frame.h"
 #include "compositor/scale_down.h"
 #include "live/proxy.h"
@@ -10,48 +8,36 @@
 namespace kagefude {
 namespace {
 
-/// By its name, what each strip is made of.
-std::map<std::string, StageKey> stampsOf(const Look& look, const Made<Colour>& colour) {
-  std::map<std::string, StageKey> stamps;
-  for (const std::string& name : paintedFiles(look)) {
-    StageKey& stamp = stamps[name];
-    stamp.add(colour.version).add(look.colour.strip).add(look.folder.native());
-    if (!isBuiltinStrip(name)) addFile(stamp, look.resolve(name));
+/// Of all stages at full size: per pixel labels, joins, tone, strokes and picture, and of each
+/// light its shadow before and after smoothing, and its tone.
+size_t bytesOf(const FramePlanes& planes) {
+  constexpr size_t ofStages = 80, ofLight = 16;
+  const auto of = [](const auto& plane) {
+    const auto view = plane.view();
+    return view.pixels() * sizeof(*view.data);
+  };
+  const auto ofVectors = [&](const Vec3Plane& plane) {
+    return of(plane.x) + of(plane.y) + of(plane.z);
+  };
+  size_t bytes = (ofStages + ofLight * planes.lights.size()) * static_cast<size_t>(planes.width) *
+                 static_cast<size_t>(planes.height);
+  for (const Vec3Plane* plane : {&planes.position, &planes.normal, &planes.rest, &planes.albedo,
+                                 &planes.beauty, &planes.lines})
+    bytes += ofVectors(*plane);
+  for (const Floats* plane : {&planes.u, &planes.v, &planes.instanceRandom, &planes.alpha,
+                              &planes.linesAlpha, &planes.depth})
+    bytes += of(*plane);
+  for (const Labels* plane : {&planes.objectId, &planes.materialId}) bytes += of(*plane);
+  for (const Labels& plane : planes.coverageIds) bytes += of(plane);
+  for (const Floats& plane : planes.coverageShares) bytes += of(plane);
+  for (const LightPlanes& light : planes.lights) {
+    for (const Bytes& mask : light.masks) bytes += of(mask);
+    bytes += of(light.traced) + of(light.depthMap);
   }
-  stamps[StyleParams{}.strip].add(colour.version);
-  return stamps;
+  return bytes;
 }
 
 }  // namespace
-
-const Made<Colour>& StripShelf::colourOf(const Look& look, StageRun& run) {
-  StageKey config;
-  config.add(look.colourConfig());
-  addFile(config, look.colourConfig());
-  return colour_.at(run, "colour", std::move(config), [&] { return Colour(look.colourConfig()); });
-}
-
-Made<StripSet> StripShelf::stripsOf(const Look& look, const Made<Colour>& colour, StageRun& run) {
-  std::map<std::string, StageKey> stamps = stampsOf(look, colour);
-  // In the order of the styles, which is that of the strips' numbers.
-  StageKey key;
-  for (const std::string& name : paintedFiles(look)) key.add(name).add(stamps[name]);
-  key.add(colour.version).add(look.output.background == Background::picture);
-  if (set_ && key == key_) return {set_, version_};
-  if (run.stop.stop_requested()) throw Superseded();
-  std::set<std::string> kept;
-  for (const auto& [name, stamp] : stamps_)
-    if (const auto now = stamps.find(name); now != stamps.end() && now->second == stamp)
-      kept.insert(name);
-  set_ = set_ ? std::make_shared<StripSet>(look, *colour, *set_, kept)
-              : std::make_shared<StripSet>(look, *colour);
-  colourOfSet_ = colour.value;
-  key_ = std::move(key);
-  stamps_ = std::move(stamps);
-  version_ = nextVersion();
-  run.made.push_back("strips");
-  return {set_, version_};
-}
 
 LivePicture LiveFrame::compose(const Look& look, StripShelf& shelf, int size,
                                std::stop_token stop) {
@@ -63,6 +49,7 @@ LivePicture LiveFrame::compose(const Look& look, StripShelf& shelf, int size,
   addReading(reading, look, plan);
   const Made<FramePlanes> planes =
       planes_.at(run, "read", std::move(reading), [&] { return readFramePlanes(plan); });
+  bytes_ = bytesOf(*planes);
   picture.colour = shelf.colourOf(look, run);
   const Made<StripSet> strips = shelf.stripsOf(look, picture.colour, run);
   picture.step = size > 0 ? proxyStep(planes->width, planes->height, size) : 1;

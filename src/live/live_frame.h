@@ -3,26 +3,9 @@
 #include <filesystem>
 
 #include "live/frame_stages.h"
+#include "live/strip_shelf.h"
 
 namespace kagefude {
-
-/// A look's colour configuration and strips. Each is kept while the look names it and its file lies
-/// unchanged on disk.
-class StripShelf {
- public:
-  const Made<Colour>& colourOf(const Look& look, StageRun& run);
-  /// The strips in the colours of `colour`, until the next call: strips that stay go over from one
-  /// set to the next, so nobody else may hold the set.
-  Made<StripSet> stripsOf(const Look& look, const Made<Colour>& colour, StageRun& run);
-
- private:
-  Stage<Colour> colour_;
-  std::shared_ptr<const Colour> colourOfSet_;  ///< which the set refers to
-  std::shared_ptr<StripSet> set_;
-  uint64_t version_ = 0;
-  StageKey key_;
-  std::map<std::string, StageKey> stamps_;  ///< of each strip in the set
-};
 
 /// A picture with what it was made of: what the viewer shows and the probe reads.
 struct LivePicture {
@@ -45,6 +28,9 @@ class LiveFrame {
   /// composeFrame do, and Superseded when `stop` is asked for; what was made until then is kept.
   LivePicture compose(const Look& look, StripShelf& shelf, int size, std::stop_token stop = {});
 
+  /// What its planes and stages take, about; 0 before the first picture. Its casters not counted.
+  size_t bytes() const { return bytes_; }
+
   const std::filesystem::path& path() const { return path_; }
   int frame() const { return frame_; }
 
@@ -54,6 +40,7 @@ class LiveFrame {
   std::string view_;
   Stage<FramePlanes> planes_, samples_;
   FrameStages whole_, proxy_;
+  size_t bytes_ = 0;
 };
 
 }  // namespace kagefude

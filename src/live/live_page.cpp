@@ -6,9 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "live/pack_pixels.h"
 #include "live/probe.h"
 #include "live/show_stage.h"
 #include "live/strip_choice.h"
+#include "live/strip_easel.h"
 #include "look/parameter_json.h"
 
 namespace kagefude {
@@ -113,7 +115,7 @@ Json describe(const LiveSession& session, const LiveView& view) {
   const LivePicture& picture = *view.picture;
   state["input"] = view.input;
   state["step"] = picture.step;
-  state["onDisk"] = {{"style", view.stylesOnDisk}, {"light", view.lightsOnDisk}};
+  state["onDisk"] = {{"style", view.onDisk.styles}, {"light", view.onDisk.lights}};
   state["painted"] = {picture.stages.planes->width, picture.stages.planes->height};
   state["stages"] = stageNames(picture);
   const Colour& colour = *picture.colour;
@@ -131,13 +133,20 @@ void addLength(std::string& bytes, size_t length) {
     bytes.push_back(static_cast<char>(static_cast<unsigned char>(length >> shift)));
 }
 
-/// What the page reads pixels from: the length of the state, the state, the pixels.
-HttpResponse withPixels(const Json& state, const ShownPixels& pixels) {
+/// What the page reads pixels from: the length of the state, the state, the pixels, packed when it
+/// asks for that.
+HttpResponse withPixels(Json state, const ShownPixels& pixels, const HttpRequest& request) {
+  const bool packed = request.query.contains("packed");
+  state["packed"] = packed;
+  if (pixels.width > 0) state["size"] = {pixels.width, pixels.height};
   const std::string text = state.dump(-1, ' ', true, Json::error_handler_t::replace);
   HttpResponse response{.type = "application/octet-stream"};
   addLength(response.body, text.size());
   response.body += text;
-  response.body += pixels.bytes;
+  if (packed)
+    response.body += packPixels(pixels);
+  else
+    response.body += pixels.bytes;
   return response;
 }
 
@@ -146,13 +155,10 @@ HttpResponse picture(const LiveSession& session, const HttpRequest& request) {
   const Viewing viewing{numberOf<float>(request, "exposure", 0), textOf(request, "display"),
                         textOf(request, "view")};
   const LiveView view = session.view(seen, longestPoll);
-  Json state = describe(session, view);
   ShownPixels pixels;
-  if (view.version > seen && view.picture) {
+  if (view.version > seen && view.picture)
     pixels = showStage(*view.picture, textOf(request, "stage", "result"), viewing);
-    state["size"] = {pixels.width, pixels.height};
-  }
-  return withPixels(state, pixels);
+  return withPixels(describe(session, view), pixels, request);
 }
 
 std::shared_ptr<const LivePicture> pictureNow(const LiveSession& session) {
@@ -161,18 +167,40 @@ std::shared_ptr<const LivePicture> pictureNow(const LiveSession& session) {
   return std::move(view.picture);
 }
 
+Look lookOnDisk(const LiveSession& session) { return session.readAsked({}).onDisk; }
+
 HttpResponse strips(const LiveSession& session) {
-  return json(stripsToChoose(session.settings().look.parent_path()));
+  const Look look = lookOnDisk(session);
+  return json(stripsToChoose(look.folder, stripsFolder(look)));
 }
 
 HttpResponse strip(const LiveSession& session, const HttpRequest& request) {
   const ShownPixels pixels =
-      showStrip(*pictureNow(session), session.readAsked({}).onDisk, textOf(request, "name"));
-  return withPixels({{"size", {pixels.width, pixels.height}}}, pixels);
+      showStrip(*pictureNow(session), lookOnDisk(session), textOf(request, "name"));
+  return withPixels(Json::object(), pixels, request);
 }
 
 HttpResponse probed(const LiveSession& session, const HttpRequest& request) {
   return json(probe(*pictureNow(session), numberOf(request, "x", 0), numberOf(request, "y", 0)));
+}
+
+HttpResponse kept(const StripKept& strip) {
+  if (!strip.strip.empty()) return json({{"strip", strip.strip}});
+  return json({{"question", strip.question}, {"freeName", strip.freeName}});
+}
+
+HttpResponse offered(const LiveSession& session, const HttpRequest& request) {
+  return kept(keepStrip(lookOnDisk(session), textOf(request, "name"), request.body,
+                        request.query.contains("anyway")));
+}
+
+HttpResponse painted(const LiveSession& session, const HttpRequest& request) {
+  const Json wanted = Json::parse(request.body);
+  const StripRecipe recipe{wanted.at("preset").get<std::string>(),
+                           wanted.at("settings").get<std::vector<std::string>>()};
+  if (!request.query.contains("name"))
+    return withPixels(Json::object(), paintedStrip(recipe), request);
+  return kept(keepPaintedStrip(lookOnDisk(session), textOf(request, "name"), recipe));
 }
 
 std::vector<std::string> overridesOf(const Json& wanted) {
@@ -180,7 +208,13 @@ std::vector<std::string> overridesOf(const Json& wanted) {
 }
 
 HttpResponse saved(const LiveSession& session, const HttpRequest& request) {
-  return json({{"before", session.save(overridesOf(Json::parse(request.body)))}});
+  const Json wanted = Json::parse(request.body);
+  const std::vector<std::string> overrides = overridesOf(wanted);
+  const auto seen = wanted.find("onDisk");
+  if (seen == wanted.end()) return json({{"before", session.save(overrides)}});
+  const EntriesOnDisk entries{seen->at("style").get<std::vector<std::string>>(),
+                              seen->at("light").get<std::vector<std::string>>()};
+  return json({{"before", session.save(overrides, &entries)}});
 }
 
 HttpResponse changed(LiveSession& session, const HttpRequest& request) {
@@ -197,12 +231,15 @@ HttpResponse answerPage(LiveSession& session, const HttpRequest& request) {
   try {
     if (request.method == "POST" && request.path == "/change") return changed(session, request);
     if (request.method == "POST" && request.path == "/save") return saved(session, request);
+    if (request.method == "POST" && request.path == "/strip") return offered(session, request);
+    if (request.method == "POST" && request.path == "/paint") return painted(session, request);
     if (request.method == "GET") {
       if (request.path == "/tables") return json(tables());
       if (request.path == "/picture") return picture(session, request);
       if (request.path == "/probe") return probed(session, request);
       if (request.path == "/strips") return strips(session);
       if (request.path == "/strip") return strip(session, request);
+      if (request.path == "/paint") return json(stripKnobs());
       for (const PageFile& file : pageFiles())
         if (file.path == request.path)
           return {.type = std::string(file.type), .body = std::string(file.content)};

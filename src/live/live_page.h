@@ -29,8 +29,16 @@ const std::vector<PageFile>& pageFiles();
 ///   GET  /probe?x=X&y=Y    what lies at a pixel
 ///   GET  /strips           names of strips to choose from
 ///   GET  /strip?name=S     a small picture of one, as /picture sends it
+///   GET  /paint            the table and the presets of painted strips (strip_easel.h)
 ///   POST /change           {"overrides": ["brush.contrast=0.3"], "input": 0}
-///   POST /save             {"overrides": [...]}: writes them into the look's file
+///   POST /save             {"overrides": [...], "onDisk": as /picture had it}: writes them into
+///                          the look's file
+///   POST /strip?name=F     a picture's file: keeps it as a strip, {"strip": "strips/F"}, or has a
+///                          {"question", "freeName"} first; &anyway=1: in spite of what is to mend
+///   POST /paint            {"preset": "soft", "settings": ["bands=3"]}: the strip, as /picture
+///   sends
+///                          it; with ?name=F kept as a file
+/// &packed=1 packs the pixels (pack_pixels.h).
 /// Whatever else is a 404; what is no JSON or of another shape a 400 that says so.
 HttpResponse answerPage(LiveSession& session, const HttpRequest& request);
 

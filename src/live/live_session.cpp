@@ -1,6 +1,8 @@
 #include "live/live_session.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <new>
@@ -12,7 +14,27 @@
 #include "look/write_look.h"
 
 namespace kagefude {
-LiveSession::LiveSession(Settings settings) : settings_(std::move(settings)) {
+namespace {
+
+LiveSession::Settings completed(LiveSession::Settings settings) {
+  if (settings.memory == 0)
+    settings.memory = static_cast<size_t>(sysconf(_SC_PHYS_PAGES)) *
+                      static_cast<size_t>(sysconf(_SC_PAGESIZE)) / 4;
+  return settings;
+}
+
+EntriesOnDisk entriesOf(const Look& look) {
+  EntriesOnDisk entries;
+  for (const StyleLook& style : look.styles)
+    entries.styles.push_back(fmt::format("{} / {}", fmt::join(style.style.object, ", "),
+                                         fmt::join(style.style.material, ", ")));
+  for (const LightLook& light : look.lights) entries.lights.push_back(light.light.name);
+  return entries;
+}
+
+}  // namespace
+
+LiveSession::LiveSession(Settings settings) : settings_(completed(std::move(settings))) {
   if (settings_.inputs.empty()) throw InputError("there is no frame to show");
   waiting_ = LiveChange{};
   thread_ = std::thread([this] { run(); });
@@ -48,8 +70,12 @@ AskedLook LiveSession::readAsked(const std::vector<std::string>& overrides) cons
   return look;
 }
 
-std::vector<std::string> LiveSession::save(const std::vector<std::string>& overrides) const {
-  readAsked(overrides);
+std::vector<std::string> LiveSession::save(const std::vector<std::string>& overrides,
+                                           const EntriesOnDisk* seen) const {
+  const AskedLook look = readAsked(overrides);
+  if (seen && entriesOf(look.onDisk) != *seen)
+    throw LookError(
+        "the look's file has got or lost entries since; look at the picture, then save again");
   return saveLook(settings_.look, overrides);
 }
 
@@ -61,30 +87,32 @@ LiveView LiveSession::view(uint64_t seen, std::chrono::milliseconds most) const 
 
 void LiveSession::run() {
   std::unique_lock lock(mutex_);
-  while (waitForWork(lock)) {
-    const bool whole = !waiting_;
+  for (Work work; (work = waitForWork(lock)) != Work::end;) {
     if (waiting_) {
       now_ = *std::exchange(waiting_, std::nullopt);
       nowChange_ = changes_;
     }
     sharpening_ = std::stop_source();
     lock.unlock();
-    answer(whole);
+    if (work == Work::prepare)
+      prepare();
+    else
+      answer(work == Work::sharpen);
     lock.lock();
   }
 }
 
-/// True when there is a change to answer or a picture to sharpen, false at the end.
-bool LiveSession::waitForWork(std::unique_lock<std::mutex>& lock) {
+LiveSession::Work LiveSession::waitForWork(std::unique_lock<std::mutex>& lock) {
   const auto wanted = [this] { return ended_ || waiting_; };
-  if (!sharp_ && !changed_.wait_for(lock, settings_.rest, wanted)) return true;
+  if (!sharp_ && !changed_.wait_for(lock, settings_.rest, wanted)) return Work::sharpen;
   while (!changed_.wait_for(lock, settings_.watch, wanted)) {
     lock.unlock();
     const bool same = filesNow() == files_;
     lock.lock();
     if (!same && !waiting_) waiting_ = now_;
+    if (!waiting_ && !ended_ && frameToPrepare()) return Work::prepare;
   }
-  return !ended_;
+  return ended_ ? Work::end : Work::answer;
 }
 
 /// What the page's state is made of on disk.
@@ -103,21 +131,66 @@ LiveFrame& LiveSession::frameOf(size_t input) {
                                  [&](const auto& frame) { return frame.first == input; });
   auto frame = kept != frames_.end() ? std::move(*kept) : std::pair(input, nullptr);
   if (kept != frames_.end()) frames_.erase(kept);
-  while (frames_.size() >= std::max<size_t>(settings_.keptFrames, 1)) frames_.pop_back();
   const LiveInput& source = settings_.inputs[input];
   if (!frame.second)
     frame.second = std::make_unique<LiveFrame>(source.path, source.frame, source.view);
   return *frames_.emplace_front(std::move(frame)).second;
 }
 
+/// Those that were not seen for the longest go first, but for the one that is.
+void LiveSession::letFramesGo() {
+  size_t bytes = 0;
+  for (size_t i = 0; i < frames_.size(); ++i) {
+    bytes += frames_[i].second->bytes();
+    if (i == 0 || bytes <= settings_.memory) continue;
+    frames_.resize(i);
+    break;
+  }
+}
+
+/// The next frame, then the one before, where another one like this fits into the memory.
+std::optional<size_t> LiveSession::frameToPrepare() const {
+  if (!sharp_ || frames_.empty()) return std::nullopt;
+  size_t bytes = frames_.front().second->bytes();
+  for (const auto& frame : frames_) bytes += frame.second->bytes();
+  if (bytes > settings_.memory) return std::nullopt;
+  for (const size_t input : {now_.input + 1, now_.input - 1}) {
+    const bool kept = std::any_of(frames_.begin(), frames_.end(),
+                                  [&](const auto& frame) { return frame.first == input; });
+    if (input < settings_.inputs.size() && !kept && !unfit_.contains(input)) return input;
+  }
+  return std::nullopt;
+}
+
+/// Makes a frame that may be looked at next. What is wrong with it is said when it is.
+void LiveSession::prepare() {
+  const size_t input = *frameToPrepare();
+  const LiveInput& source = settings_.inputs[input];
+  auto frame = std::make_unique<LiveFrame>(source.path, source.frame, source.view);
+  std::stop_token stop;
+  {
+    const std::lock_guard lock(mutex_);
+    stop = sharpening_.get_token();
+  }
+  try {
+    frame->compose(readAsked(now_.overrides).asked, shelf_, settings_.size, stop);
+  } catch (const Superseded&) {  // what was made until then is kept
+  } catch (const std::exception&) {
+    unfit_.insert(input);
+    return;
+  }
+  frames_.emplace_back(input, std::move(frame));
+  letFramesGo();
+}
+
 void LiveSession::answer(bool whole) {
   LiveView made;
   sharp_ = true;  // after an error there is nothing to sharpen
+  unfit_.clear();
   files_ = filesNow();
   try {
     const auto [onDisk, look] = readAsked(now_.overrides);
-    made.stylesOnDisk = onDisk.styles.size();
-    made.lightsOnDisk = onDisk.lights.size();
+    made.onDisk = entriesOf(onDisk);
     strips_.clear();
     for (const std::string& name : paintedFiles(look))
       if (!isBuiltinStrip(name)) strips_.push_back(look.resolve(name));
@@ -130,6 +203,7 @@ void LiveSession::answer(bool whole) {
     made.picture = std::make_shared<const LivePicture>(
         frameOf(now_.input).compose(look, shelf_, whole ? 0 : settings_.size, stop));
     sharp_ = made.picture->step == 1;
+    letFramesGo();
   } catch (const Superseded&) {
     sharp_ = false;
     return;

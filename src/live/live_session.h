@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,14 +34,21 @@ struct AskedLook {
   Look onDisk, asked;
 };
 
+/// What each entry of a look's file is for, in their order: an entry is known by it when the file
+/// gets or loses others.
+struct EntriesOnDisk {
+  std::vector<std::string> styles, lights;
+  bool operator==(const EntriesOnDisk&) const = default;
+};
+
 /// What is to be seen now. `picture` is the last good one, whatever went wrong since.
 struct LiveView {
   uint64_t version = 0;  ///< rises with every view
   uint64_t change = 0;   ///< the change that it answers
   std::shared_ptr<const LivePicture> picture;
   size_t input = 0;  ///< of the picture
-  /// Entries of the look's file when the picture was made; what the page added has higher numbers.
-  size_t stylesOnDisk = 0, lightsOnDisk = 0;
+  /// Of the look's file when the picture was made; what the page added has higher numbers.
+  EntriesOnDisk onDisk;
   std::string error;  ///< what is wrong with the change; "" when the picture is its answer
 };
 
@@ -57,7 +65,9 @@ class LiveSession {
     std::filesystem::path look;     ///< empty: all defaults
     std::vector<LiveInput> inputs;  ///< at least one
     int size = 1024;                ///< longer side of the pictures while the hand moves
-    size_t keptFrames = 3;          ///< frames whose stages stay in memory
+    /// Bytes of frames that stay in memory (LiveFrame::bytes), the one that is seen always; 0: a
+    /// quarter of what the machine has. Frames beside it are made in advance as far as they fit.
+    size_t memory = 0;
     std::chrono::milliseconds rest{200};
     std::chrono::milliseconds watch{250};
   };
@@ -78,8 +88,10 @@ class LiveSession {
 
   /// Writes overrides into the look's file (saveLook), which is then watched like any edit. Gives
   /// the overrides that bring back what was there. Throws as saveLook, and LookError for files that
-  /// the page may not name.
-  std::vector<std::string> save(const std::vector<std::string>& overrides) const;
+  /// the page may not name, and when the file has other entries than `seen` now: overrides name
+  /// entries by their number.
+  std::vector<std::string> save(const std::vector<std::string>& overrides,
+                                const EntriesOnDisk* seen = nullptr) const;
 
   /// The view as soon as its version is above `seen`, or what there is after `most` or once the
   /// session ends.
@@ -91,10 +103,15 @@ class LiveSession {
   const Settings& settings() const { return settings_; }
 
  private:
+  enum class Work { answer, sharpen, prepare, end };
+
   void run();
-  bool waitForWork(std::unique_lock<std::mutex>& lock);
+  Work waitForWork(std::unique_lock<std::mutex>& lock);
   void answer(bool whole);
+  void prepare();
+  std::optional<size_t> frameToPrepare() const;
   LiveFrame& frameOf(size_t input);
+  void letFramesGo();
   StageKey filesNow() const;
   void publish(LiveView made);
 
@@ -114,7 +131,8 @@ class LiveSession {
   StageKey files_;
   std::vector<std::filesystem::path> strips_;
   StripShelf shelf_;
-  std::deque<std::pair<size_t, std::unique_ptr<LiveFrame>>> frames_;
+  std::deque<std::pair<size_t, std::unique_ptr<LiveFrame>>> frames_;  ///< the one seen last first
+  std::set<size_t> unfit_;  ///< frames that could not be prepared
   std::thread thread_;
 };
 

@@ -49,6 +49,10 @@ std::string randomToken() {
   return token;
 }
 
+size_t mostBody(const HttpRequest& request) {
+  return request.method == "POST" && request.path == "/strip" ? size_t{64} << 20 : size_t{1} << 20;
+}
+
 std::optional<HttpResponse> refuse(HttpRequest& request, const PageAddress& address) {
   if (!isOwnHost(request.host, address.port)) return refusal(403, "this host is not served");
   if (!request.origin.empty() && !isOwnOrigin(request.origin, address.port))

@@ -19,8 +19,9 @@ struct PageAddress {
 /// 128 bits from the system, as 32 hexadecimal digits. Throws std::system_error when it has none.
 std::string randomToken();
 
-/// Bytes that the body of a request may have.
-inline constexpr size_t mostBody = size_t{1} << 20;
+/// Bytes that the body of a request may have that the guard let through: a strip's file 64 MiB, all
+/// others 1 MiB.
+size_t mostBody(const HttpRequest& request);
 
 /// Who may ask for something: only who knows the token, and only as the page itself would.
 /// - Host must be 127.0.0.1 or localhost with the port: a name of somebody else's that resolves to

@@ -28,6 +28,8 @@ std::set<std::pair<std::string, std::string>> filesNamed(const Look& look) {
   return named;
 }
 
+}  // namespace
+
 bool liesInFolder(const fs::path& folder, const std::string& name) {
   if (!staysInFolder(name)) return false;
   std::error_code error;
@@ -39,7 +41,9 @@ bool liesInFolder(const fs::path& folder, const std::string& name) {
   return end == root.end() && at != file.end();
 }
 
-}  // namespace
+std::string nameIn(const Look& look, const fs::path& path) {
+  return path.lexically_relative(look.folder).generic_string();
+}
 
 void refuseForeignPaths(const Look& onDisk, const Look& asked) {
   const auto known = filesNamed(onDisk);

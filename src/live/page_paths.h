@@ -13,4 +13,11 @@ namespace kagefude {
 /// onDisk: the look as its file has it; asked: the same file with the page's changes.
 void refuseForeignPaths(const Look& onDisk, const Look& asked);
 
+/// Whether a path as a look writes it names something in `folder` or below it, links followed, but
+/// for the folder itself. It need not be there.
+bool liesInFolder(const std::filesystem::path& folder, const std::string& name);
+
+/// A path as a look writes it that lies in `look`'s folder: relative to it.
+std::string nameIn(const Look& look, const std::filesystem::path& path);
+
 }  // namespace kagefude

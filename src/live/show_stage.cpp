@@ -101,6 +101,11 @@ ShownPixels showColours(const LivePicture& picture, const Vec3View& colour,
   return drawn(colour.width(), colour.height(), [&](int x, int y) { return shown.view()(x, y); });
 }
 
+ShownPixels showPainted(View<const float> red, View<const float> green, View<const float> blue) {
+  return drawn(red.width, red.height,
+               [&](int x, int y) { return V3f(red(x, y), green(x, y), blue(x, y)); });
+}
+
 std::vector<std::string> stageNames(const LivePicture& picture) {
   std::vector<std::string> names;
   for (const NamedStage& stage : stagesOf(picture, {})) names.push_back(stage.name);

@@ -34,4 +34,7 @@ ShownPixels showStage(const LivePicture& picture, const std::string& stage,
 /// or view.
 ShownPixels showColours(const LivePicture& picture, const Vec3View& colour, const Viewing& viewing);
 
+/// Colours that are display-encoded already, as they are.
+ShownPixels showPainted(View<const float> red, View<const float> green, View<const float> blue);
+
 }  // namespace kagefude

@@ -1,5 +1,8 @@
 #include "live/strip_choice.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <set>
 
@@ -14,16 +17,21 @@ namespace fs = std::filesystem;
 constexpr size_t mostStrips = 200;
 constexpr int deepest = 3, mostHeight = 64;
 
-bool isPicture(const fs::path& path) {
-  static const std::set<std::string> kinds{".png",  ".tif",  ".tiff", ".jpg",
-                                           ".jpeg", ".webp", ".psd",  ".tga"};
+constexpr std::string_view kinds[] = {".png",  ".exr",  ".tif", ".tiff", ".jpg",
+                                      ".jpeg", ".webp", ".psd", ".tga"};
+
+std::string kindOf(const fs::path& path) {
   std::string kind = path.extension().string();
   std::transform(kind.begin(), kind.end(), kind.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return kinds.contains(kind);
+  return kind;
 }
 
-std::vector<std::string> picturesIn(const fs::path& folder) {
+bool isOffered(const fs::path& path, const fs::path& strips) {
+  return isStripPicture(path) && (kindOf(path) != ".exr" || path.parent_path() == strips);
+}
+
+std::vector<std::string> picturesIn(const fs::path& folder, const fs::path& strips) {
   std::vector<std::string> found;
   std::error_code error;
   fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
@@ -32,7 +40,8 @@ std::vector<std::string> picturesIn(const fs::path& folder) {
     std::error_code ignored;
     const bool hidden = path.filename().native().starts_with('.');
     if (hidden || at.depth() >= deepest || at->is_symlink(ignored)) at.disable_recursion_pending();
-    if (!hidden && !at->is_symlink(ignored) && isPicture(path) && at->is_regular_file(ignored))
+    if (!hidden && !at->is_symlink(ignored) && isOffered(path, strips) &&
+        at->is_regular_file(ignored))
       found.push_back(path.lexically_relative(folder).generic_string());
   }
   std::sort(found.begin(), found.end());
@@ -47,11 +56,17 @@ const Strip::Level& smallLevelOf(const Strip& strip) {
 
 }  // namespace
 
-std::vector<std::string> stripsToChoose(const fs::path& folder) {
+bool isStripPicture(const fs::path& path) {
+  return std::find(std::begin(kinds), std::end(kinds), kindOf(path)) != std::end(kinds);
+}
+
+std::string stripSuffixes() { return fmt::format("{}", fmt::join(kinds, " ")); }
+
+std::vector<std::string> stripsToChoose(const fs::path& folder, const fs::path& strips) {
   std::vector<std::string> names;
   for (const std::string_view preset : stripPresets)
     names.push_back("builtin:" + std::string(preset));
-  for (std::string& name : picturesIn(folder.empty() ? "." : folder))
+  for (std::string& name : picturesIn(folder.empty() ? "." : folder, strips))
     if (names.size() < mostStrips) names.push_back(std::move(name));
   return names;
 }

@@ -27,7 +27,7 @@ void paintOil(StripPaintParams& p) {
   p.hardness = 0.85f;
   p.wobble = 0.35f;
   p.bristle = 0.5f;
-  p.jitter = 0.12f;
+  p.jitter = 0.1f;
   p.under = -0.08f;
   p.relief = 0.5f;
   p.hueShift = 28;
@@ -35,6 +35,8 @@ void paintOil(StripPaintParams& p) {
 constexpr PresetKey oilKeys[] = {
     {"brush", "contrast", "1.15", 0, "thick paint: strokes stand out"},
     {"smooth", "h", "", 0.006f, "edges of shadows are as soft as the brush"},
+    {"edges", "rough", "", 0.0028f, "strokes end where the bristles do, not on the outline"},
+    {"edges", "lost", "", 0.015f, "edges melt where both sides are equally bright"},
 };
 
 constexpr TonePoint gouacheRamp[] = {{0.00f, 0.13f, 0.36f, 0.85f}, {0.20f, 0.13f, 0.38f, 0.90f},
@@ -58,11 +60,12 @@ void paintGouache(StripPaintParams& p) {
 constexpr PresetKey gouacheKeys[] = {
     {"brush", "contrast", "1", 0, "matte paint: strokes show where tones meet"},
     {"smooth", "h", "", 0.008f, "steps are rounded, as a full brush leaves them"},
+    {"edges", "rough", "", 0.0015f, "a brush's edge, not a knife's"},
 };
 
 constexpr TonePoint celRamp[] = {{0.00f, 0.07f, 0.60f, 1.05f},  {0.30f, 0.07f, 0.60f, 1.05f},
-                                 {0.302f, 0.03f, 0.98f, 1.05f}, {0.95f, 0.03f, 0.98f, 1.05f},
-                                 {0.952f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
+                                 {0.302f, 0.03f, 0.98f, 1.05f}, {0.972f, 0.03f, 0.98f, 1.05f},
+                                 {0.974f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
 void paintCel(StripPaintParams& p) {
   p.strokeWidth = 2;
   p.strokeLength = 200;
@@ -79,7 +82,7 @@ constexpr PresetKey celKeys[] = {
     {"outline", "crease_angle", "42", 0, "lines along edges of the form too"},
 };
 
-constexpr TonePoint inkRamp[] = {{0.00f, 0.02f, 0.58f, 0}, {0.30f, 0.12f, 0.68f, 0},
+constexpr TonePoint inkRamp[] = {{0.00f, 0.08f, 0.56f, 0}, {0.30f, 0.22f, 0.62f, 0},
                                  {0.62f, 0.46f, 0.48f, 0}, {0.85f, 0.86f, 0.11f, 0},
                                  {0.93f, 0.97f, 0.00f, 0}, {1.00f, 0.97f, 0.00f, 0}};
 void paintInk(StripPaintParams& p) {
@@ -119,6 +122,12 @@ constexpr PresetKey pastelKeys[] = {
     {"brush", "contrast", "1.3", 0, "the grain of the paper shows"},
     {"smooth", "h", "", 0.01f, "chalk is smudged where light turns to shadow"},
     {"shade", "wrap", "0.15", 0, "light reaches a little round the form"},
+    {"edges", "rough", "", 0.0022f, "chalk breaks off at its edges"},
+    {"paper", "strength", "0.2", 0, "the tooth leaves specks of paper"},
+    {"paper", "pressure", "0.95", 0, "as little of it bare as a soft chalk leaves"},
+    {"paper", "by_tone", "0", 0, "in light and shadow alike"},
+    {"paper", "relief", "0.15", 0, "its grain is seen by its own light"},
+    {"paper", "grain", "", 0.006f, "pixels"},
 };
 
 constexpr TonePoint watercolourRamp[] = {{0.00f, 0.30f, 0.42f, 1.15f},
@@ -148,6 +157,14 @@ constexpr PresetKey watercolourKeys[] = {
     {"shade", "wrap", "0.1", 0, "light reaches a little round the form"},
     {"outline", "width", "", 0.002f, "pixels: the rim where a wash dried"},
     {"outline", "crease_angle", "180", 0, "round things only"},
+    {"edges", "rim", "", 0.0074f, "pigment gathers where a wash dries at its edge"},
+    {"edges", "rim_strength", "0.7", 0, ""},
+    {"edges", "lost", "", 0.015f, "washes of one tone run into each other"},
+    {"paper", "strength", "0.08", 0, "washes settle in the tooth"},
+    {"paper", "pressure", "0.95", 0, "and cover nearly all of it"},
+    {"paper", "by_tone", "0", 0, ""},
+    {"paper", "relief", "0.2", 0, "rough paper under thin paint"},
+    {"paper", "grain", "", 0.0074f, "pixels"},
 };
 
 constexpr LookPreset presets[] = {

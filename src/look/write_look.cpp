@@ -164,15 +164,16 @@ void writeOne(std::string& text, const std::filesystem::path& path, const Overri
   throw LookError(fmt::format("{} cannot be saved: {}", path.string(), why));
 }
 
+constexpr const char* byHand = "its text cannot be changed so; write the values by hand";
+
 /// What was written must mean what was wanted.
 void checkWritten(const std::string& text, const std::filesystem::path& path, const Look& wanted) {
-  const char* const why = "its text cannot be changed so; write the values by hand";
   try {
     if (resolvedText(readLookText(text, path, {})) == resolvedText(wanted)) return;
   } catch (const LookError&) {
-    refuseSaving(path, why);
+    refuseSaving(path, byHand);
   }
-  refuseSaving(path, why);
+  refuseSaving(path, byHand);
 }
 
 }  // namespace
@@ -189,7 +190,11 @@ WrittenLook writeOverrides(std::string_view text, const std::filesystem::path& p
     if (!value) refuseSaving(path, fmt::format("{} is no key of a look", name));
     if (const auto old = spelledValue(before, given.path))
       written.before.push_back(fmt::format("{}={}", name, *old));
-    writeOne(written.text, path, given, *value);
+    try {
+      writeOne(written.text, path, given, *value);
+    } catch (const toml::parse_error&) {  // a value before it was one that no TOML can have
+      refuseSaving(path, byHand);
+    }
   }
   checkWritten(written.text, path, wanted);
   return written;

@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Presses the panel's Preview and Live in a real Blender window, on a virtual screen with software
 # OpenGL: the painted frame must show in an Image Editor, the live page must run, and end with Blender.
-#   tests/blender_export/preview_window.sh [PICTURES]   (build/panel)      BLENDER=command
+#   tests/blender_export/preview_window.sh [PICTURES]   (build/panel)   BLENDER=command  ROOT=folder
+#                                                                      END=quit|kill
+# With END=kill Blender is killed, as a crash ends it, and the page must still end.
 # By hand, not in CI, as panel_window.sh; it needs the same packages.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -9,6 +11,21 @@ pictures=${1:-build/panel}
 kagefude=$(realpath "${KAGEFUDE:-build/release/kagefude}")
 source tests/blender_export/on_screen.sh
 printf 'kagefude = 1\n' >"$work/look.toml"
+# Another system's Blender starts the programs with this one's libraries.
+if [ -n "${ROOT:-}" ]; then
+  place=$work/program
+  mkdir -p "$place/bin"
+  files=("$kagefude" "$(dirname "$kagefude")/kagefude-oiio" \
+    "$(ldconfig -p | awk '/libmicrohttpd.so.12 /{found = $NF} END{print found}')")
+  cp "${files[@]}" "$place/bin/"
+  ldd "${files[@]}" | awk '/=> \//{print $3} /^\t\/.*ld-linux/{print $1}' | sort -u | xargs cp -t "$place"
+  for name in kagefude kagefude-oiio; do
+    printf '#!/bin/sh\nexec %s/ld-linux-x86-64.so.2 --library-path %s:%s/bin %s/bin/%s "$@"\n' \
+      "$inside/program" "$inside/program" "$inside/program" "$inside/program" $name >"$place/$name"
+    chmod +x "$place/$name"
+  done
+  kagefude=$inside/program/kagefude
+fi
 open_window preview_window.py "$kagefude" "$inside/look.toml" "$inside/state.json"
 window=${started[-1]}
 
@@ -31,9 +48,12 @@ wait_for lived
 page=$(value process)
 import -window root "$pictures/live.png"
 [ "$before" = "$(sha256sum <"$work/shot.blend")" ] || fail "the file on disk was changed"
-touch "$work/state.json.quit"
+if [ "${END:-quit}" = kill ]; then kill -KILL "$(ps -o ppid= -p "$page")"; else touch "$work/state.json.quit"; fi
 for _ in $(seq 80); do kill -0 "$window" 2>/dev/null || break; sleep 0.25; done
 ! kill -0 "$window" 2>/dev/null || fail "Blender does not end"
-! kill -0 "$page" 2>/dev/null || { fail "the live page runs on after Blender"; kill "$page"; }
+# Nobody may have waited for what a killed one has started: a zombie has ended too.
+ended() { case $(ps -o stat= -p "$1") in '' | Z*) true ;; *) false ;; esac; }
+for _ in $(seq 20); do ended "$page" && break || sleep 0.25; done
+ended "$page" || { fail "the live page runs on after Blender"; kill "$page"; }
 [ $failed -eq 0 ] && echo "Preview and Live work ($(value size) pixels); look at the pictures in $pictures" ||
   { tail -n 15 "$work/log"; exit 1; }

@@ -18,7 +18,7 @@ class Ground : public ::testing::Test {
   Ground() : frame(width, height) {
     frame.sidecar["lights"].push_back(lightJson("Key", "sun", {3, 2, 8}, {-0.5, -0.3, -0.8}, 2));
     frame.sidecar["camera"]["clip_from_camera"] = {
-        {2.5, 0, 0, 0}, {0, 10.0 / 3, 0, 0}, {0, 0, -1, -0.2}, {0, 0, -1, 0}};
+        {2.5, 0, 0, 0}, {0, 10.0 / 3, 0, 0}, {0, 0, -1.002, -0.2002}, {0, 0, -1, 0}};
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         const V3f d((float(x) + 0.5f - 16) / 40, (12 - float(y) - 0.5f) / 40, -1);

@@ -37,7 +37,11 @@ TEST_F(KeptStrips, GoOverAsTheyAreAndTheOthersAreLoaded) {
   const Rgba* const a = texelsOf(first, "a.png");
   const Rgba* const neutral = texelsOf(first, "builtin:neutral");
   folder_.write("a.png", "no picture any more");
-  const StripSet second(lookWith({"c.png", "a.png"}), colour_, first, {"a.png", "builtin:neutral"});
+  StripSet::Loaded loaded = first.release();
+  EXPECT_EQ(loaded.size(), 3u);
+  const StripSet second(lookWith({"c.png", "a.png"}), colour_, loaded);
+  EXPECT_EQ(loaded.size(), 1u);
+  EXPECT_TRUE(loaded.contains("b.png"));
   EXPECT_EQ(texelsOf(second, "a.png"), a);
   EXPECT_EQ(texelsOf(second, "builtin:neutral"), neutral);
   const StripSet whole(lookWith({"c.png"}), colour_);
@@ -48,17 +52,25 @@ TEST_F(KeptStrips, AnErrorLeavesThemWhereTheyWere) {
   writeStrip("a.png", 0.2f);
   StripSet first(lookWith({"a.png"}), colour_);
   const Rgba* const a = texelsOf(first, "a.png");
-  EXPECT_THROW(StripSet(lookWith({"a.png", "none.png"}), colour_, first, {"a.png"}), InputError);
-  EXPECT_EQ(texelsOf(first, "a.png"), a);
-  EXPECT_FALSE(first.strips()[static_cast<size_t>(first.indexOf("a.png"))].levels.empty());
+  StripSet::Loaded loaded = first.release();
+  EXPECT_THROW(StripSet(lookWith({"a.png", "none.png"}), colour_, loaded), InputError);
+  EXPECT_EQ(loaded.at("a.png").pool.row(0), a);
 }
 
-TEST_F(KeptStrips, WhatIsNotNamedIsLoadedAgain) {
+TEST_F(KeptStrips, AStripThatNobodyAskedForIsNotLoaded) {
+  writeStrip("a.png", 0.2f);
+  StripSet set(lookWith({"a.png"}), colour_);
+  EXPECT_FALSE(set.release().contains("builtin:neutral"));
+  EXPECT_TRUE(set.strips().empty());
+}
+
+TEST_F(KeptStrips, WhatIsNotThereIsLoadedAgain) {
   writeStrip("a.png", 0.2f);
   StripSet first(lookWith({"a.png"}), colour_);
   const float before = (*texelsOf(first, "a.png"))[0];
   writeStrip("a.png", 0.6f);
-  const StripSet second(lookWith({"a.png"}), colour_, first, {});
+  StripSet::Loaded none;
+  const StripSet second(lookWith({"a.png"}), colour_, none);
   EXPECT_GT((*texelsOf(second, "a.png"))[0], before);
 }
 

@@ -76,6 +76,15 @@ for what, wanted, got in (
         ("a file of the folder", 404, ask("GET", BASE + os.path.basename(look))),
         ("a method", 405, ask("PUT", BASE + "change", change)),
         ("a gigabyte", 413, ask("POST", BASE + "change", None, {"Content-Length": str(1 << 30)})),
+        ("a strip from another origin", 403, ask("POST", BASE + "strip?name=a.png", b"x", {"Origin": "http://evil.example"})),
+        ("a strip of a gigabyte", 413, ask("POST", BASE + "strip?name=a.png", None, {"Content-Length": str(1 << 30)})),
+        ("a strip that is none", 400, ask("POST", BASE + "strip?name=a.png", b"x")),
+        ("a strip over the look", 400, ask("POST", BASE + "strip?name=" + os.path.basename(look), b"x")),
+        ("a strip elsewhere", 400, ask("POST", BASE + "strip?name=..%2Fa.png", b"x")),
+        ("a strip in another folder", 400, ask("POST", BASE + "strip?name=%2Ftmp%2Fa.png", b"x")),
+        ("a strip painted elsewhere", 400, ask("POST", BASE + "paint?name=..%2Fa.png", b'{"preset": "soft", "settings": []}')),
+        ("a strip too large to paint", 400, ask("POST", BASE + "paint", b'{"preset": "soft", "settings": ["width=16384", "height=16384"]}')),
+        ("a save of other entries", 400, ask("POST", BASE + "save", b'{"overrides": ["brush.contrast=0.9"], "onDisk": {"style": [], "light": ["Key"]}}')),
         ("no JSON", 400, ask("POST", BASE + "change", b"overrides"))):
     expect(what, got[0], wanted)
 for strip in ("/etc/passwd", "../strip.png"):
@@ -83,6 +92,7 @@ for strip in ("/etc/passwd", "../strip.png"):
     assert strip in refused["error"], refused["error"]
     expect(strip, pixels, before)
 expect("the look on disk", open(look, "rb").read(), disk)
+expect("files beside it", os.listdir(os.path.dirname(look)), [os.path.basename(look)])
 turn()
 
 # Save: what was turned, and nothing else.

@@ -7,7 +7,7 @@ set -euo pipefail
 mkdir "$work/look"
 printf '[[style]]\nstrip = "builtin:soft"\n' >"$work/look/look.toml"
 start() {
-  "$kagefude" live "$work/look/look.toml" "$data/shot.0001.exr" --no-open "$@" >"$work/address" 2>"$work/log" &
+  "$kagefude" live "$work/look/look.toml" "$data/shot.0001.exr" --no-open "$@" <&0 >"$work/address" 2>"$work/log" &
   program=$!
   for _ in $(seq 200); do
     [ -s "$work/address" ] && break
@@ -45,6 +45,18 @@ kill -TERM "$program"
 code=0
 wait "$program" || code=$?
 check "SIGTERM ended with $code" test "$code" -eq 143
+
+# With the program that started it, however that ended.
+mkfifo "$work/pipe"
+sleep 60 >"$work/pipe" &
+parent=$!
+start --until-closed <"$work/pipe"
+sleep 0.5
+check "it ended before its parent" kill -0 "$program"
+kill -KILL "$parent"
+code=0
+wait "$program" || code=$?
+check "the end of standard input ended it with $code" test "$code" -eq 0
 
 # What is wrong from the start ends the call.
 code=0

@@ -10,6 +10,7 @@ says() { # says FILE TEXT...: every text is in the file
   shift
   for text in "$@"; do check "not said: $text (but: $(head -c 400 "$file"))" grep -qF -- "$text" "$file"; done
 }
+quiet() { "$@" >"$work/quiet" 2>&1; }
 # refused CODE PART COMMAND...: that exit code, one line of error, which holds the part.
 refused() {
   local code=$1 part=$2
@@ -23,11 +24,11 @@ for preset in "${presets[@]}"; do
   "$kagefude" look new "$frame" -o "$work/looks/$preset.toml" --preset "$preset" \
     --preview "$work/$preset.png" >"$work/text" 2>"$work/log"
   says "$work/text" "$preset.toml: " "$preset.png: "
-  check "$preset: the preview is not what comp makes" "$kagefude" comp "$work/looks/$preset.toml" "$frame" \
+  check "$preset: its look does not comp" "$kagefude" comp "$work/looks/$preset.toml" "$frame" \
     -o "$work/comp/shot.0001.exr" --preview "$work/comp" --progress none
-  check "$preset: the preview is not what comp makes" cmp -s "$work/$preset.png" "$work/comp/shot.0001.png"
+  check "$preset: the preview is not what comp makes" quiet oiiotool "$work/$preset.png" "$work/comp/shot.0001.png" --diff
   for strip in "$work/looks/${preset}_strips"/*.png; do
-    check "$strip is not fit to paint with" "$kagefude" strip check "$strip"
+    check "$strip is not fit to paint with" quiet "$kagefude" strip check "$strip"
   done
 done
 check "two presets give one picture" [ "$(md5sum "$work"/*.png | cut -d' ' -f1 | sort -u | wc -l)" = 6 ]
@@ -44,13 +45,13 @@ check "the look was touched" [ "$(cat "$work/mine.toml")" = mine ]
 mkdir "$work/strips_only_strips"
 refused 2 "is there already" "$kagefude" look new "$frame" -o "$work/strips_only.toml" --preset cel
 echo kept >"$work/looks/cel_strips/own.txt"
-check "--force fails" "$kagefude" look new "$frame" -o "$work/looks/cel.toml" --preset cel --force
+check "--force fails" quiet "$kagefude" look new "$frame" -o "$work/looks/cel.toml" --preset cel --force
 check "--force takes others' files away" [ "$(cat "$work/looks/cel_strips/own.txt")" = kept ]
-refused 1 "no such" "$kagefude" look new "$work/none.exr" -o "$work/none.toml" --preset cel
+refused 1 "cannot be read" "$kagefude" look new "$work/none.exr" -o "$work/none.toml" --preset cel
 refused 2 "preset" "$kagefude" look new "$frame" -o "$work/none.toml" --preset acrylic
 refused 2 "no key contrst" "$kagefude" look new "$frame" -o "$work/none.toml" --preset cel --set brush.contrst=1
 check "something was left" [ -z "$(find "$work" -name 'none*' -o -name '.*.new' -o -name '.*.tmp')" ]
-check "--set fails" "$kagefude" look new "$frame" -o "$work/set.toml" --preset oil --set brush.contrast=0.5
+check "--set fails" quiet "$kagefude" look new "$frame" -o "$work/set.toml" --preset oil --set brush.contrast=0.5
 check "--set is not in the look" grep -q "^contrast = 0.5" "$work/set.toml"
 
 # Without albedo colours come from the picture, and that is said.
@@ -77,17 +78,17 @@ check "idle keys end well" [ "$(exit_code "$kagefude" look check "$work/idle.tom
 says "$work/log" "brush.pole_fade changes nothing" "style 1 fits nothing" "2 of its entries"
 check "tone.gamma is called idle" [ "$(grep -c gamma "$work/log")" = 0 ]
 printf '[tone]\ngamma = 1.5\n' >"$work/busy.toml"
-check "a busy key is called idle" "$kagefude" look check "$work/busy.toml" "$frame"
+check "a busy key is called idle" quiet "$kagefude" look check "$work/busy.toml" "$frame"
 
 # Strips from pictures and palettes.
 "$kagefude" strip make "$work/from.png" --from "$work/oil.png" --patch 20,20,120,60 >/dev/null
-check "the picture's strip is not fit to paint with" "$kagefude" strip check "$work/from.png"
+check "the picture's strip is not fit to paint with" quiet "$kagefude" strip check "$work/from.png"
 refused 2 "is not inside" "$kagefude" strip make "$work/x.png" --from "$work/oil.png" --patch 20,20,9000,60
 refused 2 "come from the picture" "$kagefude" strip make "$work/x.png" --from "$work/oil.png" --set bristle=1
-refused 1 "cannot be read\|no such" "$kagefude" strip make "$work/x.png" --from "$work/none.jpg"
+refused 1 "does not exist" "$kagefude" strip make "$work/x.png" --from "$work/none.jpg"
 printf 'GIMP Palette\n#\n43 29 56 dark\n242 227 194 light\n138 51 36 mid\n' >"$work/p.gpl"
 "$kagefude" strip make "$work/palette.png" --palette "$work/p.gpl" --set hue_shift=20 >/dev/null
-check "the palette's strip is not fit to paint with" "$kagefude" strip check "$work/palette.png"
+check "the palette's strip is not fit to paint with" quiet "$kagefude" strip check "$work/palette.png"
 "$kagefude" strip make "$work/colours.png" --palette "#2b1d38,#8a3324,#f2e3c2" --set hue_shift=20 >/dev/null
 check "the same colours give another strip" cmp -s "$work/palette.png" "$work/colours.png"
 printf 'GIMP Palette\n#\n43 29\n' >"$work/bad.gpl"

@@ -1,4 +1,4 @@
-// What comes from elsewhere: manifests, sidecars, casters, EXR and PNG files.
+// What comes from elsewhere: manifests, sidecars, casters, EXR and PNG files, palettes.
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
@@ -10,6 +10,7 @@
 #include "frame/sidecar.h"
 #include "fuzz/fuzz_file.h"
 #include "fuzz/harness.h"
+#include "picture/palette_file.h"
 #include "picture/png_file.h"
 #include "picture/strip_file.h"
 
@@ -106,6 +107,12 @@ void fuzzPng(std::string_view input) {
   swallowErrors([&] { readPng(file.path()); });
   swallowErrors([&] { readStrip(file.path()); });
   readPngText(file.path(), "kagefude");
+}
+
+void fuzzPalette(std::string_view input) {
+  const FuzzFile file(input, ".gpl");
+  swallowErrors([&] { readPalette(file.path()); });
+  swallowErrors([&] { paletteFromText(std::string(input.substr(0, 4096))); });
 }
 
 }  // namespace kagefude::fuzz

@@ -18,11 +18,14 @@ std::span<const Harness> harnesses();
 void fuzzLook(std::string_view input);
 void fuzzOverride(std::string_view input);
 void fuzzFrameRange(std::string_view input);
+void fuzzSave(std::string_view input);
+void fuzzPageGuard(std::string_view input);
 void fuzzManifest(std::string_view input);
 void fuzzSidecar(std::string_view input);
 void fuzzCasters(std::string_view input);
 void fuzzExrHeader(std::string_view input);
 void fuzzExrChunks(std::string_view input);
 void fuzzPng(std::string_view input);
+void fuzzPalette(std::string_view input);
 
 }  // namespace kagefude::fuzz

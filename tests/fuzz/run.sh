@@ -17,7 +17,7 @@ mapfile -t harnesses < <([ $# -gt 0 ] && printf '%s\n' "$@" || "$program" list)
 # Odd allocations are what untrusted files ask for: 2 GB at most for all, 600 MB for one.
 fuzz() {
   local harness=$1 options=(-max_total_time="$seconds")
-  [[ $harness == look || $harness == override ]] && options=(-dict="$found/look.dict")
+  [[ $harness == look || $harness == override || $harness == save ]] && options=(-dict="$found/look.dict")
   if [ -n "${KAGEFUDE_FUZZ_SEED:-}" ]; then
     options+=(-seed="$KAGEFUDE_FUZZ_SEED" -runs=20000)
     rm -rf "${found:?}/$harness"

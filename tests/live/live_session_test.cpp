@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "compositor/sweep_frame.h"
@@ -133,7 +134,8 @@ TEST_F(Session, ThePageGetsStateAndPixelsInOneAnswer) {
     EXPECT_EQ(answer.body.size(), 4 + state.dump(-1, ' ', true).size() + width * height * 4)
         << stage;
     EXPECT_EQ(state["values"]["style"][0]["style"]["strip"], "builtin:soft");
-    EXPECT_EQ(state["onDisk"], (nlohmann::json{{"style", 1}, {"light", 0}}));
+    EXPECT_EQ(state["onDisk"],
+              (nlohmann::json{{"style", {"Ball / "}}, {"light", nlohmann::json::array()}}));
     EXPECT_EQ(state["lights"][0]["name"], "Key");
   }
   EXPECT_EQ(get("/picture", {{"stage", "nothing"}}).status, 400);
@@ -150,6 +152,74 @@ TEST_F(Session, ThePageGetsStateAndPixelsInOneAnswer) {
             nullptr);
 }
 
+TEST_F(Session, OverridesAreNotSavedIntoOtherEntriesThanWereSeen) {
+  write("[[style]]\nobject = \"Ball\"\n");
+  LiveSession session(settings());
+  const EntriesOnDisk seen =
+      viewWhere(session, [](const LiveView& v) { return v.picture != nullptr; }).onDisk;
+  const std::string other = "[[style]]\nobject = \"Ground\"\n\n[[style]]\nobject = \"Ball\"\n";
+  write(other);
+  EXPECT_THROW(session.save({"style[0].brush.contrast=0.5"}, &seen), LookError);
+  std::ifstream file(frame.folder / "look.toml");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), other);
+  session.save({"style[1].brush.contrast=0.5"});
+  EXPECT_FLOAT_EQ(readLook(frame.folder / "look.toml", {}).styles[1].passes.brush.contrast, 0.5f);
+}
+
+/// Three frames on disk, of which the first is looked at.
+class PreparedFrames : public Session {
+ protected:
+  LiveSession::Settings threeFrames() const {
+    LiveSession::Settings all = settings();
+    const std::filesystem::path first = all.inputs[0].path;
+    for (const int number : {2, 3}) {
+      const std::filesystem::path path = frame.folder / fmt::format("other.{:04d}.exr", number);
+      std::filesystem::copy(first, path);
+      std::filesystem::path sidecar = first, own = path;
+      std::filesystem::copy(sidecar.replace_extension(".json"), own.replace_extension(".json"));
+      all.inputs.push_back({path, number});
+    }
+    return all;
+  }
+  /// The stages that are made when another frame is asked for, a while after the first was seen.
+  std::vector<std::string> madeFor(LiveSession& session, size_t input) const {
+    viewWhere(session, [](const LiveView& v) { return v.picture != nullptr; });
+    std::this_thread::sleep_for(1500ms);
+    const uint64_t change = session.change({{}, input});
+    return viewWhere(session, [&](const LiveView& v) { return v.change == change; }).picture->made;
+  }
+};
+
+TEST_F(PreparedFrames, TheNextOneIsThereWhenItIsAskedFor) {
+  write("");
+  LiveSession session(threeFrames());
+  EXPECT_EQ(madeFor(session, 1), std::vector<std::string>());
+}
+
+TEST_F(PreparedFrames, NothingIsPreparedBeyondTheMemory) {
+  write("");
+  LiveSession::Settings small = threeFrames();
+  small.memory = 1;
+  LiveSession session(small);
+  EXPECT_FALSE(madeFor(session, 1).empty());
+  const uint64_t back = session.change({{}, 0});
+  EXPECT_FALSE(viewWhere(session, [&](const LiveView& v) {
+                 return v.change == back;
+               }).picture->made.empty());
+}
+
+TEST_F(PreparedFrames, ABrokenOneIsNotSeenBeforeItIsAskedFor) {
+  write("");
+  const LiveSession::Settings all = threeFrames();
+  std::ofstream(all.inputs[1].path) << "no frame";
+  LiveSession session(all);
+  viewWhere(session, [](const LiveView& v) { return v.picture != nullptr; });
+  std::this_thread::sleep_for(500ms);
+  EXPECT_EQ(session.view(0, 0ms).error, "");
+  const uint64_t change = session.change({{}, 1});
+  EXPECT_NE(viewWhere(session, [&](const LiveView& v) { return v.change == change; }).error, "");
+}
+
 TEST_F(Session, ThePageIsAnsweredOrRefusedInWords) {
   write("");
   LiveSession session(settings());
@@ -159,7 +229,8 @@ TEST_F(Session, ThePageIsAnsweredOrRefusedInWords) {
   };
   for (const char* path :
        {"/", "/main.js", "/link.js", "/viewer.js", "/knobs.js", "/history.js", "/strips.js",
-        "/own_entry.js", "/light_drag.js", "/style.css", "/tables", "/strips"})
+        "/own_entry.js", "/light_drag.js", "/unpack.js", "/control.js", "/easel.js",
+        "/strip_drop.js", "/style.css", "/tables", "/strips", "/paint"})
     EXPECT_EQ(ask("GET", path, ""), 200) << path;
   for (const char* path : {"/look.toml", "/main.js/", "/page/main.js", ""})
     EXPECT_EQ(ask("GET", path, ""), 404) << path;

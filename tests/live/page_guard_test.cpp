@@ -88,6 +88,13 @@ TEST(PageGuard, RefusesPathsThatLeaveAndOtherMethods) {
   }
 }
 
+TEST(PageGuard, OnlyAStripsFileMayBeLarge) {
+  EXPECT_EQ(mostBody({.method = "POST", .path = "/strip"}), size_t{64} << 20);
+  for (const char* path : {"/change", "/save", "/paint", "/strips", "/strip/", "/"})
+    EXPECT_EQ(mostBody({.method = "POST", .path = path}), size_t{1} << 20) << path;
+  EXPECT_EQ(mostBody({.method = "GET", .path = "/strip"}), size_t{1} << 20);
+}
+
 TEST(PageGuard, TokensAreLongAndNeverTheSame) {
   EXPECT_EQ(randomToken().size(), 32u);
   EXPECT_NE(randomToken(), randomToken());

@@ -10,6 +10,7 @@
 #include "look/look.h"
 #include "look/look_keys.h"
 #include "look/toml_text.h"
+#include "passes/strip/strip_check.h"
 
 namespace kagefude {
 namespace {
@@ -161,6 +162,18 @@ TEST(LookPreset, ColoursAreTheThingsOwn) {
     EXPECT_GT(lit({0.6f, 0.05f, 0.03f}).y, 0.05f) << preset.name;
     EXPECT_LT(lit({0.03f, 0.1f, 0.6f}).z, -0.04f) << preset.name;
   }
+}
+
+TEST(LookPreset, StripsPassTheirCheck) {
+  for (const LookPreset& preset : lookPresets())
+    for (const V3f& colour : {V3f(0.5f, 0.5f, 0.08f), V3f(0.02f, 0.2f, 0.25f),
+                              V3f(0.6f, 0.05f, 0.03f), V3f(0.8f), V3f(0.02f)}) {
+      StripPaintParams strip = presetStrip(preset, colour, 6);
+      strip.width = strip.height = 256;
+      const PaintedStrip painted = paintStrip(strip);
+      const StripReport report = checkStrip(painted.r, painted.g, painted.b);
+      EXPECT_TRUE(report.problems.empty()) << preset.name << ": " << report.problems.front();
+    }
 }
 
 TEST(LookKeys, ListsAndTakesAwayKeys) {

@@ -35,6 +35,13 @@ TEST(WriteLook, AValueIsReplacedInPlace) {
       "[[style]]\nobject = [\"Vase\"] # both\nstrip = \"a.png\"\n");
 }
 
+TEST(WriteLook, AValueThatNoTomlCanHaveIsRefusedInWords) {
+  // Bytes that are no UTF-8, and another override that is written after them.
+  EXPECT_EQ(refusal("[[style]]\nobject = \"Vase\"\n",
+                    {"style[0].object=[\"T\xbf\"]", "tone.gamma=2"}),
+            "a.toml cannot be saved: its text cannot be changed so; write the values by hand");
+}
+
 TEST(WriteLook, WhatMeansTheSameIsNotTouched) {
   for (const std::string text :
        {"[tone]\ngamma = 1.50\n", "[tone]\ngamma = 15e-1 # so\n", "tone = { gamma = 1.5 }"})

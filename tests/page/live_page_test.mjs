@@ -232,6 +232,125 @@ test('strips are chosen from their pictures', async () => {
   await picture('strips.png');
 });
 
+/** Drops a file on an element as a hand does, at a place of it. */
+async function drop(selector, [x, y], name, bytes) {
+  await page.evaluate(([selector, x, y, name, bytes]) => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
+    const place = document.querySelector(selector);
+    for (const kind of ['dragover', 'drop'])
+      place.dispatchEvent(new DragEvent(kind,
+        { dataTransfer, clientX: x, clientY: y, bubbles: true, cancelable: true }));
+  }, [selector, x, y, name, [...bytes]]);
+}
+
+function paintedFile(name, ...settings) {
+  const file = join(folder, name);
+  execFileSync(KAGEFUDE, ['strip', 'make', file, '--preset', 'soft',
+    ...['width=64', 'height=64', ...settings].flatMap((set) => ['--set', set])]);
+  const bytes = readFileSync(file);
+  rmSync(file);
+  return bytes;
+}
+
+test('a strip is dropped on a thing, and never over another one', async () => {
+  const first = await shownWhere(() => true, 'a picture');
+  const red = paintedFile('red.png', 'stops=[0,0.2,0,0, 1,1,0.3,0.2]');
+  const blue = paintedFile('blue.png', 'stops=[0,0,0,0.2, 1,0.3,0.4,1]');
+  await drop('#canvas', await placeOf('Vase'), 'vase.png', red);
+  await page.waitForFunction(() => document.getElementById('scope').value === 'style 0');
+  const inRed = await shownWhere((now) => now !== first, 'the vase in red');
+  assert.equal(await knob('style[0].strip').inputValue(), 'strips/vase.png');
+  assert.deepEqual(readFileSync(join(folder, 'strips/vase.png')), red);
+  await picture('dropped.png');
+
+  const questions = [];
+  page.once('dialog', (dialog) => {
+    questions.push(dialog.message());
+    dialog.accept();
+  });
+  await drop('#panel', [1000, 400], 'vase.png', blue);
+  await shownWhere((now) => now !== inRed && now !== first, 'the vase in blue');
+  assert.match(questions[0], /vase\.png is there already/);
+  assert.equal(await knob('style[0].strip').inputValue(), 'strips/vase-2.png');
+  assert.deepEqual(readFileSync(join(folder, 'strips/vase.png')), red);
+
+  await drop('#canvas', await placeOf('Table'), 'table.png', red);
+  await page.waitForFunction(() => document.getElementById('scope').value === 'style 1');
+  assert.equal(await knob('style[1].strip').inputValue(), 'strips/table.png');
+  await drop('#canvas', await placeOf('Vase'), 'notes.txt', Buffer.from('hello'));
+  await page.waitForFunction(() =>
+    document.getElementById('error').textContent.includes('not named as a picture'));
+  // That the browser notes the refusal is as it should be.
+  strange.splice(0, strange.length, ...strange.filter((what) => !what.includes('status of 400')));
+  rmSync(join(folder, 'strips'), { recursive: true });
+});
+
+test('a strip is painted in the page', async () => {
+  const first = await shownWhere(() => true, 'a picture');
+  await page.mouse.click(...await placeOf('Vase'));
+  await page.click('.knob .open');
+  await page.click('text=paint one…');
+  const ink = () => page.locator('.easel canvas').evaluate((canvas) =>
+    canvas.width > 1 && canvas.getContext('2d').getImageData(0, 0, 64, 64).data.join());
+  const wait = async (fits) => {
+    for (let i = 0; i < 100; ++i) {
+      const now = await ink();
+      if (now && fits(now)) return now;
+      await page.waitForTimeout(50);
+    }
+    return assert.fail('the strip is not painted');
+  };
+  const soft = await wait(() => true);
+  await page.fill('#paint-bands + input', '3');
+  await page.press('#paint-bands + input', 'Tab');
+  await wait((now) => now !== soft);
+  await page.fill('#paint-stops', '0, 0.1, 0, 0.3, 1, 1, 0.9, 0.2');
+  await page.press('#paint-stops', 'Tab');
+  await page.fill('.easel .name', 'mine.png');
+  await page.click('text=keep and use');
+  await shownWhere((now) => now !== first, 'the vase in the painted strip');
+  assert.equal(await knob('style[0].strip').inputValue(), 'strips/mine.png');
+  await picture('painted_strip.png');
+  const made = paintedFile('same.png', 'width=512', 'height=512', 'bands=3',
+    'stops=[0,0.1,0,0.3, 1,1,0.9,0.2]');
+  assert.deepEqual(readFileSync(join(folder, 'strips/mine.png')), made);
+  rmSync(join(folder, 'strips'), { recursive: true });
+});
+
+test('what was turned of a style stays its own when the file gets another one before it', async () => {
+  await page.mouse.click(...await placeOf('Vase'));
+  await page.waitForFunction(() => document.getElementById('scope').value === 'style 0');
+  await type('style[0].brush.contrast', 0.2);
+  await page.waitForFunction(() => !document.getElementById('save').disabled);
+  const entry = '[[style]]\nobject = "Pear"\nstrip = "builtin:cel"\n\n';
+  writeFileSync(look, start.replace('[[style]]', `${entry}[[style]]`));
+  await page.waitForSelector('#scope [value="style 1"]', { state: 'attached' });
+  await page.waitForTimeout(300);
+  await page.click('#save');
+  await page.waitForFunction(() => document.getElementById('save').disabled);
+  const saved = readFileSync(look, 'utf8');
+  assert.match(saved.slice(saved.indexOf('"Vase"')), /contrast = 0\.2/);
+  assert.doesNotMatch(saved.slice(0, saved.indexOf('"Vase"')), /contrast/);
+});
+
+test('what is packed for the way is what was made', async () => {
+  const differs = await page.evaluate(async () => {
+    const { unpacked } = await import(new URL('unpack.js', location));
+    const get = async (query) => {
+      const bytes = await (await fetch(`picture?seen=0&stage=result${query}`)).arrayBuffer();
+      const length = new DataView(bytes).getUint32(0, true);
+      return [JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length))),
+        new Uint8Array(bytes, 4 + length)];
+    };
+    const [{ size }, plain] = await get('');
+    const [{ packed }, bytes] = await get('&packed=1');
+    const { data } = unpacked(bytes, ...size);
+    return packed && bytes.length < plain.length / 2 ? plain.findIndex((byte, i) => byte !== data[i]) : 'not packed';
+  });
+  assert.equal(differs, -1);
+});
+
 test('a style that is in no file yet stays what it is when the file gets another one', async () => {
   await page.mouse.click(...await placeOf('Table'));
   await page.click('#own');

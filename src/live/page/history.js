@@ -3,12 +3,25 @@
 const entry = /^(style|light)\[(\d+)\]\./;
 const naming = /^(style\[\d+\]\.object|light\[\d+\]\.name)$/;
 
+/** For each entry of `before` where it is in `now`, or null; equal ones in their order. One that is
+ * for something else now, among as many as before, is still the one. */
+function newNumbers(before, now) {
+  const free = now.map((name, number) => [name, number]);
+  const numbers = before.map((name) => {
+    const at = free.findIndex(([other]) => other === name);
+    return at < 0 ? null : free.splice(at, 1)[0][1];
+  });
+  const stays = (i) => before.length === now.length && free.some(([, number]) => number === i);
+  return numbers.map((number, i) => number ?? (stays(i) ? i : null));
+}
+
 export class History {
   overrides = new Map();
   #past = [];
   #future = [];
   #turning = null;
   #made = new Set(); // the first keys of styles and lights that are in no file yet
+  #known = {}; // what the entries of the file's lists were for, when it was last seen
 
   /** `changed()` is told of every new state. */
   constructor(changed) {
@@ -53,25 +66,47 @@ export class History {
     this.changed();
   }
 
-  /** `counts` says how many entries of each list the file has. When another program added or took
-   * some, those that are in no file yet get other numbers. */
-  renumber(counts) {
+  /** `onDisk` says what each entry of the file's lists is for. When another program added or took
+   * some, what was turned of the others gets their new numbers, and what is in no file yet comes
+   * after them. Gives what became of nothing: the entries that were turned and are gone. */
+  renumber(onDisk) {
+    const gone = [];
     for (const list of ['style', 'light']) {
-      const numbers = [...this.#made].map((path) => entry.exec(path))
-        .filter(([, of]) => of === list).map(([, , number]) => Number(number));
-      const shift = counts[list] - Math.min(...numbers);
-      if (numbers.length && shift) this.#shift(list, Math.min(...numbers), shift);
+      const before = this.#known[list] ?? onDisk[list];
+      this.#known[list] = onDisk[list];
+      const numbers = newNumbers(before, onDisk[list]);
+      const made = this.#madeOf(list);
+      const shift = made.length ? onDisk[list].length - Math.min(...made) : 0;
+      const to = (number) => {
+        if (made.includes(number)) return number + shift;
+        return number < before.length ? numbers[number] : number;
+      };
+      if (!shift && numbers.every((number, i) => number === i)) continue;
+      gone.push(...before.filter((_, i) => numbers[i] === null && this.#turns(list, i)));
+      this.#rename(list, to);
     }
+    return gone;
   }
 
-  #shift(list, first, shift) {
+  #madeOf(list) {
+    return [...this.#made].map((path) => entry.exec(path))
+      .filter(([, of]) => of === list).map(([, , number]) => Number(number));
+  }
+
+  #turns(list, number) {
+    return [...this.overrides.keys()].some((path) => path.startsWith(`${list}[${number}].`));
+  }
+
+  /** `to(number)` is an entry's new number, or null when it is gone. */
+  #rename(list, to) {
     const renamed = (path) => {
       const [, of, number] = entry.exec(path) ?? [];
-      return of === list && Number(number) >= first
-        ? path.replace(entry, `${list}[${Number(number) + shift}].`)
-        : path;
+      if (of !== list) return path;
+      const now = to(Number(number));
+      return now === null ? null : path.replace(entry, `${list}[${now}].`);
     };
-    const all = (state) => new Map([...state].map(([path, text]) => [renamed(path), text]));
+    const all = (state) => new Map([...state].map(([path, text]) => [renamed(path), text])
+      .filter(([path]) => path !== null));
     this.overrides = all(this.overrides);
     this.#past = this.#past.map(all);
     this.#future = this.#future.map(all);

@@ -1,63 +1,6 @@
 // Knobs for every parameter of one scope, made of the program's own tables.
+import { control, element, spell } from './control.js';
 import { stripChoice } from './strips.js';
-
-/** TOML spells these as JSON does. */
-const spell = (value) => JSON.stringify(value);
-
-function element(name, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(name), properties);
-  made.append(...children);
-  return made;
-}
-
-/** An input for a parameter: the elements, and functions that read and write its value. */
-function control(parameter, turned) {
-  const { type, range, choices } = parameter;
-  if (type === 'true/false') {
-    const box = element('input', { type: 'checkbox', className: 'wide' });
-    box.oninput = () => turned(box.checked);
-    return { parts: [box], write: (value) => (box.checked = value) };
-  }
-  if (type === 'choice') {
-    const list = element('select', { className: 'wide' }, ...choices.map((c) => new Option(c)));
-    list.oninput = () => turned(list.value);
-    return { parts: [list], write: (value) => (list.value = value) };
-  }
-  if (type === 'number' || type === 'integer') return numberControl(parameter, turned);
-  const field = element('input', { className: 'wide' });
-  field.onchange = () => {
-    if (type === 'text') return turned(field.value);
-    try {
-      turned(JSON.parse(`[${field.value}]`));
-      field.setCustomValidity('');
-    } catch {
-      field.setCustomValidity(type === 'texts' ? 'names in quotes, with commas' : 'numbers, with commas');
-      field.reportValidity();
-    }
-  };
-  const one = (v) => (typeof v === 'number' ? Number(v.toPrecision(7)) : spell(v));
-  const write = (value) => (field.value = type === 'text' ? value : value.map(one).join(', '));
-  return { parts: [field], write };
-}
-
-/** Wide ranges slide finely near 0: the slider is the cube root of its way through the range. */
-function numberControl({ type, range: [low, high] = [0, 1] }, turned) {
-  const wide = high - low > 1000;
-  const bend = wide ? 3 : 1;
-  const slider = element('input', { type: 'range', min: 0, max: 1, step: 'any' });
-  const field = element('input', { type: 'number', min: low, max: high, step: 'any' });
-  const round = (v) => (type === 'integer' ? Math.round(v) : Number(v.toPrecision(4)));
-  slider.oninput = () => {
-    field.value = round(low + (high - low) * slider.value ** bend);
-    turned(Number(field.value));
-  };
-  field.onchange = () => field.value !== '' && turned(Number(field.value));
-  const write = (value) => {
-    field.value = Number(value.toPrecision(7));
-    slider.value = ((value - low) / (high - low)) ** (1 / bend);
-  };
-  return { parts: [slider, field], write };
-}
 
 const last = ['colour', 'output', 'frame']; // what is set once
 
@@ -72,9 +15,10 @@ function sectionsOf(tables, scope) {
 export class Knobs {
   #knobs = [];
 
-  /** `turned(path, text)` is told what was turned, `reset(path)` what goes back to the file's. */
-  constructor(root, tables, turned, reset) {
-    Object.assign(this, { root, tables, turned, reset });
+  /** `turned(path, text)` is told what was turned, `reset(path)` what goes back to the file's,
+   * `failed(text)` what went wrong with a strip. */
+  constructor(root, tables, turned, reset, failed) {
+    Object.assign(this, { root, tables, turned, reset, failed });
   }
 
   /** Makes the knobs of 'look', 'light' or 'style' (with its number). */
@@ -101,9 +45,13 @@ export class Knobs {
       const value = values[knob.pass]?.[knob.name];
       const active = document.activeElement;
       const isTurned = knob.row.contains(active) && !active.matches('button') && changed.has(knob.path);
-      if (value !== undefined && !isTurned) knob.write(value);
+      const text = spell(value);
+      if (value !== undefined && !isTurned && knob.shown !== text) {
+        knob.write(value);
+        knob.shown = text;
+      }
       knob.row.classList.toggle('changed', changed.has(knob.path));
-      knob.row.classList.toggle('given', spell(value) !== knob.standard);
+      knob.row.classList.toggle('given', text !== knob.standard);
     }
   }
 
@@ -115,7 +63,11 @@ export class Knobs {
   }
 
   #knob(pass, parameter, path) {
-    const { parts, write } = control(parameter, (value) => this.turned(path, spell(value)));
+    const knob = { path, pass, name: parameter.name, shown: null }; // shown: what it was written last
+    const { parts, write } = control(parameter, (value) => {
+      knob.shown = null;
+      this.turned(path, spell(value));
+    });
     const limits = parameter.range ? ` (${parameter.range.join(' to ')} ${parameter.unit ?? ''})` : '';
     const title = `${parameter.help}${limits}\ndefault ${spell(parameter.default)}`;
     const label = element('label', { title, textContent: parameter.name });
@@ -128,11 +80,11 @@ export class Knobs {
     plain.onclick = () => this.turned(path, standard);
     const row = element('div', { className: 'knob' }, label, ...parts, plain, back);
     if (pass === 'style' && parameter.name === 'strip') {
-      row.append(...stripChoice((name) => this.turned(path, spell(name))));
+      row.append(...stripChoice((name) => this.turned(path, spell(name)), this.failed));
       parts[0].classList.add('beside');
     }
     const words = `${pass}.${parameter.name} ${parameter.help}`.toLowerCase();
-    this.#knobs.push({ row, path, pass, name: parameter.name, write, words, standard });
+    this.#knobs.push(Object.assign(knob, { row, write, words, standard }));
     return row;
   }
 }

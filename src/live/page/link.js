@@ -1,5 +1,6 @@
 // What the page and the program say to each other. Addresses are relative, so each carries the
 // token of the page's own.
+import { unpacked } from './unpack.js';
 
 export async function tables() {
   return (await fetch('tables')).json();
@@ -15,18 +16,44 @@ export async function strips() {
 
 /** A small picture of a strip. */
 export async function strip(name) {
-  return (await received(await fetch(`strip?${new URLSearchParams({ name })}`))).pixels;
+  return (await received(await fetch(`strip?${new URLSearchParams({ name, packed: 1 })}`))).pixels;
+}
+
+async function sent(where, body) {
+  const response = await fetch(where, { method: 'POST', body });
+  if (!response.ok) throw new Error(await response.text());
+  return response;
 }
 
 async function post(where, what) {
-  const response = await fetch(where, { method: 'POST', body: JSON.stringify(what) });
-  if (!response.ok) throw new Error(await response.text());
-  return response.json();
+  return (await sent(where, JSON.stringify(what))).json();
 }
 
-/** Writes overrides ("path=TOML") into the look's file; gives those that bring back what it had. */
-export async function save(overrides) {
-  return (await post('save', { overrides })).before;
+/** Offers a picture's file as a strip: {strip}, or {question, freeName}. */
+export async function offerStrip(file, name, anyway) {
+  const query = new URLSearchParams(anyway ? { name, anyway: 1 } : { name });
+  return (await sent(`strip?${query}`, file)).json();
+}
+
+/** The table and the presets of painted strips. */
+export async function paintKnobs() {
+  return (await fetch('paint')).json();
+}
+
+/** The strip of a recipe {preset, settings}. */
+export async function painted(recipe) {
+  return (await received(await sent('paint?packed=1', JSON.stringify(recipe)))).pixels;
+}
+
+/** Paints it into a file; answers as offerStrip. */
+export function keepPainted(name, recipe) {
+  return post(`paint?${new URLSearchParams({ name })}`, recipe);
+}
+
+/** Writes overrides ("path=TOML") into the look's file; gives those that bring back what it had.
+ * Refused when the file has other entries than `onDisk` says. */
+export async function save(overrides, onDisk) {
+  return (await post('save', { overrides, onDisk })).before;
 }
 
 /** Sends the newest change; while one is on its way the others wait in one place, so that none
@@ -63,14 +90,14 @@ async function received(response) {
   const length = new DataView(buffer).getUint32(0, true);
   const state = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const pixels = state.size
-    ? new ImageData(new Uint8ClampedArray(buffer, 4 + length), ...state.size)
+    ? unpacked(new Uint8Array(buffer, 4 + length), ...state.size)
     : null;
   return { state, pixels };
 }
 
 /** Those of a view above `seen`, looked at as `wanted` says. */
 async function picture(seen, wanted, signal) {
-  const query = new URLSearchParams({ seen, ...wanted });
+  const query = new URLSearchParams({ seen, packed: 1, ...wanted });
   return received(await fetch(`picture?${query}`, { signal }));
 }
 

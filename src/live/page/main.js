@@ -4,15 +4,17 @@ import { Knobs } from './knobs.js';
 import { Changes, Pictures, pictureNow, probe, save, tables } from './link.js';
 import { ownLight, ownStyle } from './own_entry.js';
 import { draggedLight } from './light_drag.js';
+import { keepFile, takeDrops } from './strip_drop.js';
 import { Viewer } from './viewer.js';
 
 const at = (id) => document.getElementById(id);
 let stage = 'result';
 let state = null;
 let exposure = 0;
+let perShown = 1; // pixels of the stages for one that is shown
 
 const complain = (text) => {
-  at('error').textContent = text;
+  if (at('error').textContent !== text) at('error').textContent = text;
   at('error').hidden = !text;
 };
 
@@ -25,8 +27,12 @@ function send() {
   at('save').disabled = !history.overrides.size;
   changes.send({ overrides: spelled(), input: Number(at('input').value || 0) });
 }
-addEventListener('change', () => history.rest());
-addEventListener('pointerup', () => history.rest());
+let notice = ''; // shown until something is turned
+for (const kind of ['change', 'pointerup'])
+  addEventListener(kind, () => {
+    history.rest();
+    notice = '';
+  });
 addEventListener('beforeunload', (event) => history.overrides.size && event.preventDefault());
 
 let saving = false; // the file may have the new entries before its answer is here
@@ -35,7 +41,7 @@ async function saveAll() {
   if (!written.length || saving) return;
   saving = true;
   try {
-    const before = await save(spelled());
+    const before = await save(spelled(), state.onDisk);
     history.saved(written, before.map((text) => {
       const equals = text.indexOf('=');
       return [text.slice(0, equals), text.slice(equals + 1)];
@@ -50,16 +56,22 @@ async function saveAll() {
 
 const viewer = new Viewer(at('canvas'), pointed, clicked, takeLight);
 let probing = false;
-async function pointed(x, y) {
-  if (probing || !state) return;
+let pointedAt = []; // nothing while the pointer is elsewhere
+async function pointed(...where) {
+  pointedAt = where;
+  if (probing || !state?.values) return;
   probing = true;
+  let found = { object: null };
   try {
-    const found = await probe(x, y);
-    at('probe').textContent = found.object === null ? '' : describe(found);
-  } catch {
-    at('probe').textContent = '';
-  }
+    if (where.length) found = await probeShown(...where);
+  } catch {} // no picture yet
+  at('probe').textContent = found.object === null || !pointedAt.length ? '' : describe(found);
   probing = false;
+}
+
+/** What lies at a pixel of what is shown. */
+function probeShown(x, y) {
+  return probe(...[x, y].map((at) => Math.floor((at + 0.5) * perShown)));
 }
 
 function describe({ x, y, object, material, style, strip, row, lights }) {
@@ -72,7 +84,7 @@ function describe({ x, y, object, material, style, strip, row, lights }) {
 
 async function clicked(x, y) {
   if (!state?.values) return;
-  const found = await probe(x, y);
+  const found = await probeShown(x, y);
   at('picked').hidden = found.object === null;
   if (found.object === null) return;
   at('picked-name').textContent = found.object;
@@ -107,7 +119,7 @@ function takeLight() {
 
 const list = await tables();
 const knobs = new Knobs(at('knobs'), list, (path, text) => history.set(path, text),
-  (path) => history.reset(path));
+  (path) => history.reset(path), complain);
 
 let scopes = '';
 let wantedScope = null; // to be chosen when it is there
@@ -134,6 +146,36 @@ function showValues() {
   knobs.show(scope === 'look' ? values.look : values[scope][index], history.overrides);
 }
 
+/** A strip that was dropped goes to a style, or to a new one for what has none. */
+async function dropStrip(file, style, found) {
+  try {
+    const name = await keepFile(file);
+    if (!name) return;
+    const number = style ?? state.values.style.length;
+    const strip = [`style[${number}].strip`, JSON.stringify(name)];
+    if (style === undefined) {
+      wantedScope = `style ${number}`;
+      history.add(null, [...ownStyle(found, state.values, list), strip]);
+    } else {
+      history.setAll(null, [strip]);
+      choose(`style ${style}`);
+    }
+  } catch (problem) {
+    complain(problem.message);
+  }
+}
+
+takeDrops(at('canvas'), async (file, event) => {
+  const found = await probeShown(...viewer.pixelAt(event));
+  if (found.object === null) return complain('nothing lies there that could be painted');
+  dropStrip(file, found.style, found);
+});
+takeDrops(at('panel'), (file) => {
+  const { scope, index } = scopeNow();
+  if (scope === 'style') dropStrip(file, index);
+  else complain('drop the picture on a thing, or choose a style first');
+});
+
 function showScopes({ light, style }) {
   const names = [['look', 'whole look'],
     ...light.map((l, i) => [`light ${i}`, `light ${l.light.name}`]),
@@ -157,7 +199,11 @@ const viewing = () => {
   return { exposure, display, view };
 };
 
+let stagesShown = '';
 function showStages(names) {
+  const text = JSON.stringify([names, stage]);
+  if (text === stagesShown) return;
+  stagesShown = text;
   at('stages').replaceChildren(...names.map((name) => {
     const tab = Object.assign(document.createElement('button'), { textContent: name, role: 'tab' });
     tab.setAttribute('aria-selected', name === stage);
@@ -206,15 +252,20 @@ async function showAgainst() {
 
 const pictures = new Pictures(() => ({ stage, ...viewing() }), (now, pixels) => {
   state = now;
-  complain(now.error);
-  if (!now.values) return;
-  if (!now.error && !saving) history.renumber(now.onDisk);
-  showLists(now);
-  if (pixels) {
+  if (pixels) { // first, for the eye waits for it
     shownPixels = pixels;
-    viewer.show(pixels, now.size.map((side) => side * now.step));
-    if (at('against').value) showAgainst();
+    const scale = now.values.look.output.scale; // of the stages, which are not yet scaled down
+    perShown = now.painted[0] / now.size[0];
+    viewer.show(pixels, now.painted.map((side) => (side * now.step) / scale));
+    at('canvas').dispatchEvent(new CustomEvent('drawn', { detail: now.change }));
   }
+  if (!now.values) return complain(now.error);
+  const gone = now.error || saving ? [] : history.renumber(now.onDisk);
+  if (gone.length) notice = `no longer in the look's file, nor what was turned of it: ${gone.join('; ')}`;
+  complain(now.error || notice);
+  showLists(now);
+  if (pixels && at('against').value) showAgainst();
+  if (pixels && pointedAt.length) pointed(...pointedAt);
   showStages(now.stages);
   showScopes(now.values);
   showValues();

@@ -13,16 +13,18 @@ export class Viewer {
   #y = 0;
   #full = [1, 1];
 
-  /** `pointed(x, y)` and `clicked(x, y)` get the pixel of the picture under the pointer. `taken()`
+  /** `pointed(x, y)` and `clicked(x, y)` get the pixel of the picture under the pointer; without one
+   * the pointer has left. `taken()`
    * gives what a drag does instead of moving the picture, or null: a function of the way right and
    * down, as shares of the canvas. */
   constructor(canvas, pointed, clicked, taken) {
     Object.assign(this, { canvas, clicked, taken });
     this.#context = canvas.getContext('2d');
-    new ResizeObserver(() => this.draw()).observe(canvas);
+    new ResizeObserver(() => this.#resize()).observe(canvas);
     canvas.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });
     canvas.addEventListener('pointerdown', (event) => this.#drag(event));
     canvas.addEventListener('pointermove', (event) => pointed(...this.pixelAt(event)));
+    canvas.addEventListener('pointerleave', () => pointed());
   }
 
   /** `full` is the size of the unsampled picture, by which a proxy is laid over the same place. */
@@ -58,10 +60,16 @@ export class Viewer {
     ];
   }
 
-  draw() {
+  /** To ask for the size at every picture would lay out the whole page each time. */
+  #resize() {
     const { canvas } = this;
     canvas.width = Math.max(1, Math.round(canvas.clientWidth * devicePixelRatio));
     canvas.height = Math.max(1, Math.round(canvas.clientHeight * devicePixelRatio));
+    this.draw();
+  }
+
+  draw() {
+    this.#context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     this.#drawOne(this.#picture);
     if (this.#other) this.#drawWipe();
   }
@@ -173,8 +181,8 @@ export class Viewer {
 }
 
 function paint(canvas, pixels) {
-  canvas.width = pixels.width;
-  canvas.height = pixels.height;
+  const { width, height } = pixels;
+  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
   canvas.getContext('2d').putImageData(pixels, 0, 0);
   return canvas;
 }

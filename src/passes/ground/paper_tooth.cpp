@@ -108,11 +108,7 @@ PaperTooth screenTooth(const ToothTile& tile, int width, int height, int offsetX
   PaperTooth tooth{Floats(width, height), Floats(width, height)};
   parallelRows(height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
-      for (int x = 0; x < width; ++x) {
-        const ToothSample sample = tile.at(x + offsetX, y + offsetY);
-        tooth.height(x, y) = sample.height;
-        tooth.slope(x, y) = sample.slope;
-      }
+      tile.copyRow(offsetX, y + offsetY, width, tooth.height.row(y), tooth.slope.row(y));
   });
   return tooth;
 }

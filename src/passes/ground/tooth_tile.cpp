@@ -150,6 +150,16 @@ ToothTile::ToothTile(const PaperParams& params) {
   });
 }
 
+void ToothTile::copyRow(int x, int y, int count, float* height, float* slope) const {
+  const int row = wrapped(y);
+  for (int done = 0; done < count;) {
+    const int from = wrapped(x + done), run = std::min(size() - from, count - done);
+    std::copy_n(height_.row(row) + from, run, height + done);
+    std::copy_n(slope_.row(row) + from, run, slope + done);
+    done += run;
+  }
+}
+
 ToothSample ToothTile::between(float u, float v) const {
   const float x = u * texelsPerGrain_ - 0.5f, y = v * texelsPerGrain_ - 0.5f;
   const float left = std::floor(x), top = std::floor(y);

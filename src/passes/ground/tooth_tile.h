@@ -31,6 +31,8 @@ class ToothTile {
     const int column = wrapped(x), row = wrapped(y);
     return {height_(column, row), slope_(column, row)};
   }
+  /// The `count` texels from (x, y) to the right, as at() gives them.
+  void copyRow(int x, int y, int count, float* height, float* slope) const;
   /// Between the texels' centres bilinear; u, v in grains, within 2^20 of 0.
   ToothSample between(float u, float v) const;
 
