@@ -168,8 +168,7 @@ TEST(LookPreset, StripsPassTheirCheck) {
   for (const LookPreset& preset : lookPresets())
     for (const V3f& colour : {V3f(0.5f, 0.5f, 0.08f), V3f(0.02f, 0.2f, 0.25f),
                               V3f(0.6f, 0.05f, 0.03f), V3f(0.8f), V3f(0.02f)}) {
-      StripPaintParams strip = presetStrip(preset, colour, 6);
-      strip.width = strip.height = 256;
+      const StripPaintParams strip = presetStrip(preset, colour, 6);
       const PaintedStrip painted = paintStrip(strip);
       const StripReport report = checkStrip(painted.r, painted.g, painted.b);
       EXPECT_TRUE(report.problems.empty()) << preset.name << ": " << report.problems.front();
