@@ -7,6 +7,7 @@ namespace {
 
 using testing::companions;
 using testing::contextOf;
+using testing::takesPair;
 
 class Sweep : public ::testing::Test, protected testing::SweepFrame {
  protected:
@@ -46,9 +47,9 @@ TEST_F(Sweep, EveryKeyOfAPassActsWhereItIsTakenOrIsRefusedByName) {
   for (const LookSection& row : lookSections) {
     const std::string section(row.table->pass);
     if (noPasses.contains(section)) continue;
-    section == "pair" || section == "smooth" ? arrange("pair", 2) : arrange("disc", 9);
-    mask("Fill", frame.sidecar["lights"][1], section == "pair" ? "pair" : "disc",
-         section == "pair" ? 2 : 9, 4);
+    const std::string arrangement = takesPair(section) ? "pair" : "disc";
+    arrange(arrangement, takesPair(section) ? 2 : 9);
+    mask("Fill", frame.sidecar["lights"][1], arrangement, takesPair(section) ? 2 : 9, 4);
     // A spot for the cone alone: round lights have none.
     frame.sidecar["lights"][0]["type"] = section == "shade" ? "spot" : "point";
     frame.sidecar["lights"][0]["cone"] = {{"angle", 0.5}, {"blend", 0.5}};

@@ -137,13 +137,20 @@ class SweepFrame {
   TestFrame frame{width, height};
 };
 
+/// Sections that want two masks rather than a disc of them.
+inline bool takesPair(const std::string& section) {
+  return section == "pair" || section == "pair_depth" || section == "smooth";
+}
+
 /// What a section wants before it can do anything.
 inline std::string contextOf(const std::string& section) {
   const std::string start = "[shadow]\nmethod = \"";
-  if (section == "pair" || section == "smooth" || section == "light_shape") return "";
+  if (section == "light_shape") return "";
+  if (section == "smooth") return start + "pair\"\n";
   if (section == "planar" || section == "blob")
     return start + section + "\"\nreceiver = \"Ground\"\n";
-  if (section == "pcf" || section == "pcss" || section == "coverage" || section == "volume")
+  if (section == "pair" || section == "pair_depth" || section == "pcf" || section == "pcss" ||
+      section == "coverage" || section == "volume")
     return start + section + "\"\n";
   if (section == "paper") return "output.background = \"paper\"\npaper.strength = 0.8\n";
   return "";

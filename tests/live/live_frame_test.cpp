@@ -13,6 +13,7 @@ namespace {
 
 using testing::companions;
 using testing::contextOf;
+using testing::takesPair;
 
 void addPlane(std::string& bytes, View<const float> plane) {
   bytes.append(reinterpret_cast<const char*>(plane.data), plane.pixels() * sizeof(float));
@@ -107,10 +108,9 @@ TEST_F(Live, TurningAnyKeyOfAPassGivesTheBitsOfAWholeFrame) {
   for (const LookSection& row : lookSections) {
     const std::string section(row.table->pass);
     if (!row.inLook || section == "frame" || section == "colour" || section == "output") continue;
-    const bool pair = section == "pair" || section == "smooth";
+    const bool pair = takesPair(section);
     arrange(pair ? "pair" : "disc", pair ? 2 : 9);
-    mask("Fill", frame.sidecar["lights"][1], section == "pair" ? "pair" : "disc",
-         section == "pair" ? 2 : 9, 4);
+    mask("Fill", frame.sidecar["lights"][1], pair ? "pair" : "disc", pair ? 2 : 9, 4);
     frame.write();
     for (const Parameter& p : row.table->parameters) {
       const std::string key = section + "." + std::string(p.name);

@@ -69,14 +69,17 @@ for scene in "${scenes[@]}"; do
   export_masks "$scene" disc:33 disc33
   export_masks "$scene" pair pair
   measure "$scene" hard disc9 light_shape.light_size=0
-  measure "$scene" seed_pair pair smooth.h=0 pair.bound=none pair.horizon=false
-  measure "$scene" pair_in_object pair smooth.h=0
-  measure "$scene" pair_smooth pair
+  measure "$scene" seed_pair pair shadow.method=pair smooth.h=0 pair.bound=none pair.horizon=false
+  measure "$scene" pair_in_object pair shadow.method=pair smooth.h=0
+  measure "$scene" pair_smooth pair shadow.method=pair
+  measure "$scene" pair_depth pair
   measure "$scene" pcss disc9 shadow.method=pcss smooth.h=0
   average "$scene"
+  measure "$scene" five_alone disc5 light_shape.depth_map=false
   measure "$scene" five_masks disc5
-  measure "$scene" nine_linear disc9 light_shape.disc=linear light_shape.follow=false
-  measure "$scene" nine_wedges disc9 light_shape.follow=false
+  measure "$scene" nine_linear disc9 light_shape.disc=linear light_shape.follow=false light_shape.depth_map=false
+  measure "$scene" nine_wedges disc9 light_shape.follow=false light_shape.depth_map=false
+  measure "$scene" nine_alone disc9 light_shape.depth_map=false
   measure "$scene" nine_masks disc9
   measure "$scene" seventeen_masks disc17
   measure "$scene" thirty_three_masks disc33

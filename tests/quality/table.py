@@ -13,10 +13,13 @@ import sys
 
 METHODS = {
     "hard": "hard mask of the centre", "seed_pair": "seed's pair search",
-    "pair_in_object": "pair, not smoothed", "pair_smooth": "**pair**",
+    "pair_in_object": "pair, not smoothed", "pair_smooth": "pair",
+    "pair_depth": "**pair with the depth map**",
     "pcss": "PCSS from the depth map",
-    "average": "average of the nine masks", "five_masks": "**five masks**",
+    "average": "average of the nine masks", "five_alone": "five masks alone",
+    "five_masks": "**five masks**",
     "nine_linear": "nine masks, one linear fit", "nine_wedges": "nine masks, wedges alone",
+    "nine_alone": "nine masks alone",
     "nine_masks": "**nine masks**", "seventeen_masks": "seventeen masks",
     "thirty_three_masks": "thirty-three masks"}
 # What the pictures show, in this order, and what stands over them.

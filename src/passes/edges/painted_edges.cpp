@@ -5,18 +5,13 @@
 
 #include "image/parallel.h"
 #include "image/real_math.h"
+#include "passes/edges/edge_border.h"
 #include "passes/require_size.h"
 #include "passes/search/nearest_site.h"
 #include "passes/strip/strip.h"
 
 namespace kagefude {
 namespace {
-
-constexpr int stepX[4] = {1, -1, 0, 0}, stepY[4] = {0, 0, 1, -1};
-
-struct PixelAt {
-  int x = 0, y = 0;
-};
 
 float eased(float t) {
   const float c = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
@@ -41,36 +36,22 @@ Rgba pooled(const Rgba& colour, float dense) {
   return result;
 }
 
-/// A border as one pixel sees it.
-struct Border {
-  PixelAt own, other;    ///< the pixels on both sides that are nearest
-  float distance = 0;    ///< from the pixel's centre, pixels
-  bool inFront = false;  ///< whether the pixel's own thing is
-};
-
 class EdgePainter {
  public:
-  explicit EdgePainter(const EdgePaint& in) : in_(in), empty_{} {
+  explicit EdgePainter(const EdgePaint& in) : in_(in), borders_(in) {
     for (const PaintedEdgeParams& params : in.params) reach_ = std::max(reach_, reachOf(params));
   }
 
   float reach() const { return reach_; }
-
-  /// Whether the pixel lies at a border that may change.
-  bool isAtBorder(int x, int y) const {
-    const uint16_t own = in_.things(x, y);
-    for (int k = 0; k < 4; ++k)
-      if (isBorder(own, x + stepX[k], y + stepY[k])) return true;
-    return false;
-  }
+  const EdgeBorders& borders() const { return borders_; }
 
   void paint(int x, int y, uint32_t nearest, const PaintViews& paint) const {
     Border border;
-    if (!findBorder(x, y, nearest, border)) return;
-    const PaintedEdgeParams& own = paramsAt({x, y});
-    const PaintedEdgeParams& other = paramsAt(border.other);
+    if (!borders_.find(x, y, nearest, border)) return;
+    const PaintedEdgeParams& own = borders_.paramsAt({x, y});
+    const PaintedEdgeParams& other = borders_.paramsAt(border.other);
     const PaintedEdgeParams& front = border.inFront ? own : other;
-    const PixelAt beyond = mirrored(x, y, border);
+    const PixelAt beyond = borders_.mirrored(x, y, border);
     const float grain = borderGrain(x, y, border, beyond, front);
     const float melted = front.lost > 0.0f ? lostShare(border, front) : 0.0f;
     const bool moves = front.rough > 0.0f || melted > 0.0f;
@@ -109,108 +90,8 @@ class EdgePainter {
     return std::max(moved + p.rim, p.dry > 0.0f ? p.dryWidth : 0.0f);
   }
 
-  const PaintedEdgeParams& paramsOf(uint16_t thing) const {
-    return thing == 0 || thing > in_.params.size() ? empty_ : in_.params[thing - 1u];
-  }
-  const PaintedEdgeParams& paramsAt(const PixelAt& at) const {
-    return paramsOf(in_.things(at.x, at.y));
-  }
-
-  bool isBorder(uint16_t own, int x, int y) const {
-    if (!in_.things.contains(x, y)) return false;
-    const uint16_t other = in_.things(x, y);
-    return other != own && (paramsOf(own).acts() || paramsOf(other).acts());
-  }
-
   Rgba colourAt(int x, int y) const {
     return Rgba{in_.own.r(x, y), in_.own.g(x, y), in_.own.b(x, y), in_.own.a(x, y)};
-  }
-
-  /// The pixel of the own thing at the border, from any that is near it.
-  bool ownPixelNear(int x, int y, PixelAt& at) const {
-    const uint16_t own = in_.things(x, y);
-    if (in_.things(at.x, at.y) == own) return true;
-    int best = 0x7fffffff;
-    PixelAt found = at;
-    for (int dy = -1; dy <= 1; ++dy)
-      for (int dx = -1; dx <= 1; ++dx) {
-        const int qx = at.x + dx, qy = at.y + dy;
-        if (!in_.things.contains(qx, qy) || in_.things(qx, qy) != own || !isAtBorder(qx, qy))
-          continue;
-        const int squared = (qx - x) * (qx - x) + (qy - y) * (qy - y);
-        if (squared < best) {
-          best = squared;
-          found = {qx, qy};
-        }
-      }
-    at = found;
-    return best != 0x7fffffff;
-  }
-
-  bool findBorder(int x, int y, uint32_t nearest, Border& border) const {
-    const int width = in_.things.width;
-    border.own = {static_cast<int>(nearest) % width, static_cast<int>(nearest) / width};
-    if (!ownPixelNear(x, y, border.own)) return false;
-    const uint16_t own = in_.things(x, y);
-    const int wayX = border.own.x - x, wayY = border.own.y - y;
-    int best = -0x7fffffff;
-    for (int k = 0; k < 4; ++k) {
-      const PixelAt other{border.own.x + stepX[k], border.own.y + stepY[k]};
-      if (!isBorder(own, other.x, other.y)) continue;
-      const int ahead = wayX * stepX[k] + wayY * stepY[k];
-      if (ahead <= best) continue;
-      best = ahead;
-      border.other = other;
-    }
-    if (best == -0x7fffffff) return false;
-    const auto dx = static_cast<float>(wayX), dy = static_cast<float>(wayY);
-    border.distance = std::sqrt(dx * dx + dy * dy) + withinPixels(x, y, border);
-    border.inFront = isInFront(border);
-    return true;
-  }
-
-  /// From the centre of the own pixel at the border to the border itself, by what the thing covers
-  /// of the pixels on both sides.
-  float withinPixels(int x, int y, const Border& border) const {
-    if (in_.coverage.empty()) return 0.5f;
-    const uint16_t own = in_.things(x, y);
-    const uint32_t id = own == 0 || own > in_.coverageIds.size() ? 0u : in_.coverageIds[own - 1u];
-    return std::clamp(covered(id, border.own) + covered(id, border.other) - 0.5f, 0.0f, 1.5f);
-  }
-
-  float covered(uint32_t id, const PixelAt& at) const {
-    float own = 0, named = 0;
-    for (const CoverageRank& rank : in_.coverage) {
-      const float share = rank.coverage(at.x, at.y);
-      if (!(share >= smallestShare)) continue;
-      if (rank.id(at.x, at.y) == id) own += share;
-      if (rank.id(at.x, at.y) != 0) named += share;
-    }
-    return std::min(id == 0 ? std::max(1.0f - named, 0.0f) : own, 1.0f);
-  }
-
-  bool isInFront(const Border& border) const {
-    const uint16_t own = in_.things(border.own.x, border.own.y);
-    const uint16_t other = in_.things(border.other.x, border.other.y);
-    if (own == 0 || other == 0) return other == 0;
-    const float here = distanceOf(border.own), there = distanceOf(border.other);
-    return here != there ? here < there : own < other;
-  }
-
-  /// Squared where positions tell it; only compared.
-  float distanceOf(const PixelAt& at) const {
-    if (in_.position.empty()) return in_.distance.empty() ? 0.0f : in_.distance(at.x, at.y);
-    const V3f d = in_.position(at.x, at.y) - in_.eye;
-    return d.dot(d);
-  }
-
-  /// The pixel as far beyond the border as (x, y) is before it; the one at the border where that is
-  /// of a third thing.
-  PixelAt mirrored(int x, int y, const Border& border) const {
-    const PixelAt at{border.other.x + border.own.x - x, border.other.y + border.own.y - y};
-    const bool same = in_.things.contains(at.x, at.y) &&
-                      in_.things(at.x, at.y) == in_.things(border.other.x, border.other.y);
-    return same ? at : border.other;
   }
 
   /// Shape of the strokes in front, -1..1: mostly that of the border, seen as coarsely as it is
@@ -293,7 +174,7 @@ class EdgePainter {
   }
 
   const EdgePaint& in_;
-  const PaintedEdgeParams empty_;
+  const EdgeBorders borders_;
   float reach_ = 0;
 };
 
@@ -305,57 +186,6 @@ void requireSizes(const EdgePaint& in, const PaintViews& paint) {
     requireSize("painted edges", plane, width, height);
 }
 
-/// Squares of the picture that edges may reach: those that hold a border, and as many round them as
-/// the reach takes. Pixels in them are 1.
-constexpr int square = 32;
-
-Bytes squaresInReach(View<const uint8_t> borders, float reach) {
-  const int across = (borders.width + square - 1) / square;
-  const int down = (borders.height + square - 1) / square;
-  Bytes held(across, down, uint8_t{0});
-  parallelRows(down, 1, [&](int first, int) {
-    const int end = std::min((first + 1) * square, borders.height);
-    for (int y = first * square; y < end; ++y)
-      for (int x = 0; x < borders.width; ++x)
-        if (borders(x, y)) held(x / square, first) = 1;
-  });
-  const int far = static_cast<int>(reach) / square + 1;
-  Bytes inReach(borders.width, borders.height, uint8_t{0});
-  parallelRows(down, 1, [&](int row, int) {
-    for (int column = 0; column < across; ++column) {
-      bool any = false;
-      for (int v = std::max(row - far, 0); v <= std::min(row + far, down - 1) && !any; ++v)
-        for (int u = std::max(column - far, 0); u <= std::min(column + far, across - 1); ++u)
-          any = any || held(u, v);
-      if (!any) continue;
-      const int left = column * square, right = std::min(left + square, borders.width);
-      for (int y = row * square; y < std::min((row + 1) * square, borders.height); ++y)
-        std::fill(inReach.row(y) + left, inReach.row(y) + right, uint8_t{1});
-    }
-  });
-  return inReach;
-}
-
-Bytes findBorders(const EdgePainter& painter, View<const uint16_t> things) {
-  const int width = things.width, height = things.height;
-  Bytes borders(width, height);
-  parallelRows(height, [&](int first, int end) {
-    for (int y = first; y < end; ++y) {
-      const uint16_t* const own = things.row(y);
-      const uint16_t* const above = things.row(std::max(y - 1, 0));
-      const uint16_t* const below = things.row(std::min(y + 1, height - 1));
-      uint8_t* const out = borders.row(y);
-      for (int x = 0; x < width; ++x) {
-        const uint16_t left = own[x > 0 ? x - 1 : 0], right = own[x + 1 < width ? x + 1 : x];
-        const bool differs =
-            (own[x] != left) | (own[x] != right) | (own[x] != above[x]) | (own[x] != below[x]);
-        out[x] = differs && painter.isAtBorder(x, y) ? 1 : 0;
-      }
-    }
-  });
-  return borders;
-}
-
 }  // namespace
 
 void paintEdges(const EdgePaint& in, const PaintViews& paint) {
@@ -364,7 +194,7 @@ void paintEdges(const EdgePaint& in, const PaintViews& paint) {
   if (!(painter.reach() > 0.0f)) return;
   const int width = in.things.width, height = in.things.height;
   const float reach = painter.reach() + 1.5f;
-  const Bytes borders = findBorders(painter, in.things);
+  const Bytes borders = painter.borders().borderPixels();
   const Bytes wanted = squaresInReach(borders, reach);
   SiteSearch search;
   search.kinds = borders;

@@ -12,7 +12,7 @@ struct PaperParams {
   enum class Fixed { screen, world };
   float strength = 0;
   Kind kind = Kind::rough;
-  float grain = 3;
+  float grain = 5;
   float pressure = 0.6f;
   float byTone = 0.5f;
   float relief = 0.3f;

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "passes/edges/painted_edges.h"
+
+namespace kagefude {
+
+struct PixelAt {
+  int x = 0, y = 0;
+};
+
+/// A border as one pixel sees it.
+struct Border {
+  PixelAt own, other;    ///< the pixels on both sides that are nearest
+  float distance = 0;    ///< from the pixel's centre, pixels
+  bool inFront = false;  ///< whether the pixel's own thing is
+};
+
+/// The borders of a picture whose paint gets its edges (paintEdges): those at which the params of
+/// either side do anything.
+class EdgeBorders {
+ public:
+  /// `in` must outlive it.
+  explicit EdgeBorders(const EdgePaint& in) : in_(in) {}
+
+  /// Params of the pixel's thing; of the background and unknown things those that do nothing.
+  const PaintedEdgeParams& paramsAt(const PixelAt& at) const {
+    return paramsOf(in_.things(at.x, at.y));
+  }
+  /// Whether a side of the pixel is a border.
+  bool isAtBorder(int x, int y) const;
+  /// 1 where isAtBorder.
+  Bytes borderPixels() const;
+  /// The border that (x, y) sees, from the index y * width + x of a border's pixel that is nearest.
+  /// False where that has no pixel of the own thing beside it.
+  bool find(int x, int y, uint32_t nearest, Border& border) const;
+  /// The pixel as far beyond the border as (x, y) is before it; the one at the border where that is
+  /// of a third thing.
+  PixelAt mirrored(int x, int y, const Border& border) const;
+
+ private:
+  const PaintedEdgeParams& paramsOf(uint16_t thing) const {
+    return thing == 0 || thing > in_.params.size() ? none_ : in_.params[thing - 1u];
+  }
+  bool isBorder(uint16_t own, int x, int y) const;
+  bool ownPixelNear(int x, int y, PixelAt& at) const;
+  float withinPixels(int x, int y, const Border& border) const;
+  float covered(uint32_t id, const PixelAt& at) const;
+  bool isInFront(const Border& border) const;
+  float distanceOf(const PixelAt& at) const;
+
+  const EdgePaint& in_;
+  const PaintedEdgeParams none_{};
+};
+
+/// 1 in the squares of 32 pixels that lie within `reach` of one that holds a pixel of `borders`,
+/// and in some beyond.
+Bytes squaresInReach(View<const uint8_t> borders, float reach);
+
+}  // namespace kagefude
