@@ -63,9 +63,11 @@ constexpr PresetKey gouacheKeys[] = {
     {"edges", "rough", "", 0.0011f, "a brush's edge, not a knife's"},
 };
 
-constexpr TonePoint celRamp[] = {{0.00f, 0.07f, 0.60f, 1.05f},  {0.30f, 0.07f, 0.60f, 1.05f},
-                                 {0.302f, 0.03f, 0.98f, 1.05f}, {0.972f, 0.03f, 0.98f, 1.05f},
-                                 {0.974f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
+// Flat tones must not change within themselves, so they lean by points and not by hueShift.
+constexpr TonePoint celRamp[] = {
+    {0.00f, 0.07f, 0.60f, 1.05f, -8},  {0.30f, 0.07f, 0.60f, 1.05f, -8},
+    {0.302f, 0.03f, 0.98f, 1.05f, 3},  {0.972f, 0.03f, 0.98f, 1.05f, 3},
+    {0.974f, 0.22f, 0.84f, 0.90f, 10}, {1.00f, 0.22f, 0.84f, 0.90f, 10}};
 void paintCel(StripPaintParams& p) {
   p.strokeWidth = 2;
   p.strokeLength = 200;
@@ -74,7 +76,6 @@ void paintCel(StripPaintParams& p) {
   p.jitter = 0;
   p.wobble = 0;
   p.pressure = 0;
-  p.hueShift = 14;
 }
 constexpr PresetKey celKeys[] = {
     {"brush", "contrast", "0", 0, "flat colours: no strokes"},

@@ -164,6 +164,14 @@ TEST(LookPreset, ColoursAreTheThingsOwn) {
   }
 }
 
+TEST(LookPreset, CelTonesAreFlat) {
+  const PaintedStrip strip = paintStrip(presetStrip(lookPreset("cel"), {0.02f, 0.2f, 0.25f}, 1));
+  for (const auto& [from, to] : {std::pair(0.05f, 0.28f), std::pair(0.33f, 0.95f)})
+    for (const Floats* plane : {&strip.r, &strip.g, &strip.b})
+      EXPECT_NEAR((*plane)(7, static_cast<int>(512 * (1 - from))),
+                  (*plane)(300, static_cast<int>(512 * (1 - to))), 1e-3f);
+}
+
 TEST(LookPreset, StripsPassTheirCheck) {
   for (const LookPreset& preset : lookPresets())
     for (const V3f& colour : {V3f(0.5f, 0.5f, 0.08f), V3f(0.02f, 0.2f, 0.25f),
