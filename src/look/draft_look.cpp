@@ -10,6 +10,7 @@
 
 #include "base/printable.h"
 #include "image/oklab.h"
+#include "look/look_sections.h"
 #include "look/toml_text.h"
 #include "passes/edges/outline.h"
 
@@ -157,8 +158,18 @@ std::string keyLine(const std::string& key, const std::string& value, std::strin
   return why.empty() ? line + "\n" : fmt::format("{:<32} # {}\n", line, why);
 }
 
+/// The least that a key takes.
+double leastOf(const PresetKey& key) {
+  for (const LookSection& section : lookSections)
+    if (section.table->pass == key.section)
+      for (const Parameter& parameter : section.table->parameters)
+        if (parameter.name == key.key) return parameter.minimum;
+  return 0;
+}
+
 float pixelsOf(const PresetKey& key, int height) {
-  return std::max(key.ofHeight * static_cast<float>(height), 0.8f);
+  const float least = std::max(0.8f, static_cast<float>(leastOf(key)));
+  return std::max(key.ofHeight * static_cast<float>(height), least);
 }
 
 std::string valueOf(const PresetKey& key, int height) {

@@ -35,7 +35,7 @@ void paintOil(StripPaintParams& p) {
 constexpr PresetKey oilKeys[] = {
     {"brush", "contrast", "1.15", 0, "thick paint: strokes stand out"},
     {"smooth", "h", "", 0.006f, "edges of shadows are as soft as the brush"},
-    {"edges", "rough", "", 0.0028f, "strokes end where the bristles do, not on the outline"},
+    {"edges", "rough", "", 0.0018f, "strokes end where the bristles do, not on the outline"},
     {"edges", "lost", "", 0.015f, "edges melt where both sides are equally bright"},
 };
 
@@ -60,12 +60,14 @@ void paintGouache(StripPaintParams& p) {
 constexpr PresetKey gouacheKeys[] = {
     {"brush", "contrast", "1", 0, "matte paint: strokes show where tones meet"},
     {"smooth", "h", "", 0.008f, "steps are rounded, as a full brush leaves them"},
-    {"edges", "rough", "", 0.0015f, "a brush's edge, not a knife's"},
+    {"edges", "rough", "", 0.0011f, "a brush's edge, not a knife's"},
 };
 
-constexpr TonePoint celRamp[] = {{0.00f, 0.07f, 0.60f, 1.05f},  {0.30f, 0.07f, 0.60f, 1.05f},
-                                 {0.302f, 0.03f, 0.98f, 1.05f}, {0.972f, 0.03f, 0.98f, 1.05f},
-                                 {0.974f, 0.22f, 0.84f, 0.90f}, {1.00f, 0.22f, 0.84f, 0.90f}};
+// Flat tones must not change within themselves, so they lean by points and not by hueShift.
+constexpr TonePoint celRamp[] = {
+    {0.00f, 0.07f, 0.60f, 1.05f, -8},  {0.30f, 0.07f, 0.60f, 1.05f, -8},
+    {0.302f, 0.03f, 0.98f, 1.05f, 3},  {0.972f, 0.03f, 0.98f, 1.05f, 3},
+    {0.974f, 0.22f, 0.84f, 0.90f, 10}, {1.00f, 0.22f, 0.84f, 0.90f, 10}};
 void paintCel(StripPaintParams& p) {
   p.strokeWidth = 2;
   p.strokeLength = 200;
@@ -74,7 +76,6 @@ void paintCel(StripPaintParams& p) {
   p.jitter = 0;
   p.wobble = 0;
   p.pressure = 0;
-  p.hueShift = 14;
 }
 constexpr PresetKey celKeys[] = {
     {"brush", "contrast", "0", 0, "flat colours: no strokes"},
@@ -122,7 +123,7 @@ constexpr PresetKey pastelKeys[] = {
     {"brush", "contrast", "1.3", 0, "the grain of the paper shows"},
     {"smooth", "h", "", 0.01f, "chalk is smudged where light turns to shadow"},
     {"shade", "wrap", "0.15", 0, "light reaches a little round the form"},
-    {"edges", "rough", "", 0.0022f, "chalk breaks off at its edges"},
+    {"edges", "rough", "", 0.0015f, "chalk breaks off at its edges"},
     {"paper", "strength", "0.2", 0, "the tooth leaves specks of paper"},
     {"paper", "pressure", "0.95", 0, "as little of it bare as a soft chalk leaves"},
     {"paper", "by_tone", "0", 0, "in light and shadow alike"},

@@ -13,8 +13,8 @@ std::vector<float> tonesOf(const V3f& linearColour, std::span<const TonePoint> r
   const V3f own = oklabOfLinear(linearColour);
   std::vector<float> stops;
   for (const TonePoint& point : ramp) {
-    const V3f c =
-        srgbOfOklab({point.lift + point.scale * own.x, point.chroma * own.y, point.chroma * own.z});
+    const V3f tone(point.lift + point.scale * own.x, point.chroma * own.y, point.chroma * own.z);
+    const V3f c = srgbOfOklab(leanTowardsWarm(tone, point.lean));
     stops.insert(stops.end(), {point.place, c.x, c.y, c.z});
   }
   return stops;

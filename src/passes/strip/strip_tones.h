@@ -12,6 +12,7 @@ namespace kagefude {
 struct TonePoint {
   float place = 0;  ///< 0 dark to 1 bright
   float lift = 0, scale = 1, chroma = 1;
+  float lean = 0;  ///< degrees towards warm, below 0 towards cool, see leanTowardsWarm
 };
 
 /// **[ours]** The stops of a strip (StripPaintParams::stops) for a thing of that colour, linear
