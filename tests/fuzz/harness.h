@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <span>
 #include <string_view>
 
@@ -11,6 +12,11 @@ struct Harness {
   std::string_view name;  ///< also the folder of its seeds in tests/fuzz/corpus
   void (*run)(std::string_view input);
 };
+
+/// Ends the process: what the library says of itself does not hold.
+inline void require(bool holds) {
+  if (!holds) std::abort();
+}
 
 /// All harnesses; a new one is a row here.
 std::span<const Harness> harnesses();

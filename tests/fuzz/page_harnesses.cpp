@@ -1,6 +1,4 @@
 // What comes in over the live page: requests, and what is saved into a look.
-#include <cstdlib>
-
 #include "base/error.h"
 #include "fuzz/fuzz_file.h"
 #include "fuzz/harness.h"
@@ -10,11 +8,6 @@
 
 namespace kagefude::fuzz {
 namespace {
-
-/// Ends the process: what the library says of itself does not hold.
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 /// The text before the next `mark`, which is taken off.
 std::string_view nextOf(std::string_view& input, std::string_view mark) {

@@ -1,6 +1,4 @@
 // What artists type: looks, --set, frame ranges.
-#include <cstdlib>
-
 #include "base/error.h"
 #include "fuzz/fuzz_file.h"
 #include "fuzz/harness.h"
@@ -8,14 +6,6 @@
 #include "sequence/frame_range.h"
 
 namespace kagefude::fuzz {
-namespace {
-
-/// Ends the process: what the library says of itself does not hold.
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
 
 /// A look that is taken can be printed, and the print is a look that prints the same.
 void fuzzLook(std::string_view input) {
