@@ -39,6 +39,20 @@ def look(settings):
     return os.path.abspath(path)
 
 
+def environment():
+    """What the program is started with: as Blender was, but without the colour configuration of its own
+    that Blender 5 names in OCIO. The same look is to come out as on the command line, and an older
+    OpenColorIO cannot read it."""
+    words = dict(os.environ)
+    if words.get("OCIO") and words["OCIO"].startswith(_own_data()):
+        del words["OCIO"]
+    return words
+
+
+def _own_data():
+    return bpy.utils.system_resource('DATAFILES') or os.path.join(bpy.utils.resource_path('LOCAL'), "datafiles")
+
+
 def preview_words(settings, scene):
     """Words that export the current frame, small, for a preview."""
     words = export_words(settings, scene, os.path.join(folder(), FRAME), frames=str(scene.frame_current))
@@ -59,7 +73,7 @@ class Comp:
         self._process = subprocess.Popen(
             [program(settings), "comp", look(settings), frame_file(scene), "-o", self.picture,
              "--progress", "none", "--set", "output.scale=1"],
-            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self._said)
+            env=environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self._said)
         self.error = None
 
     def poll(self):
@@ -94,8 +108,8 @@ class Live:
                 return
             cls.close()
         cls.running, cls.shown = subprocess.Popen(
-            [wanted[0], "live", *wanted[1:], "--until-closed"], stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL), wanted
+            [wanted[0], "live", *wanted[1:], "--until-closed"], env=environment(),
+            stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL), wanted
 
     @classmethod
     def close(cls):

@@ -57,6 +57,20 @@ def check_panel(settings):
     settings.scale = 1
 
 
+def check_environment():
+    """Blender's own colour configuration is not handed on, that of the studio is."""
+    preview = exporter("preview")
+    before = os.environ.pop("OCIO", None)
+    assert "OCIO" not in preview.environment()
+    os.environ["OCIO"] = os.path.join(bpy.utils.system_resource('DATAFILES'), "colormanagement", "config.ocio")
+    assert "OCIO" not in preview.environment(), os.environ["OCIO"]
+    os.environ["OCIO"] = "/studio/config.ocio"
+    assert preview.environment()["OCIO"] == "/studio/config.ocio"
+    del os.environ["OCIO"]
+    if before is not None:
+        os.environ["OCIO"] = before
+
+
 def check_export(output):
     background = exporter("background_export").BackgroundExport
     before = open_file_state()
@@ -119,6 +133,7 @@ def check_reports(background):
 def main():
     addon = exporter("panel")
     addon.register()
+    check_environment()
     check_export(sys.argv[-1])
     check_panel(bpy.context.scene.kagefude)
     addon.unregister()

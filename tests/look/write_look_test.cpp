@@ -37,9 +37,9 @@ TEST(WriteLook, AValueIsReplacedInPlace) {
 
 TEST(WriteLook, AValueThatNoTomlCanHaveIsRefusedInWords) {
   // Bytes that are no UTF-8, and another override that is written after them.
-  EXPECT_EQ(refusal("[[style]]\nobject = \"Vase\"\n",
-                    {"style[0].object=[\"T\xbf\"]", "tone.gamma=2"}),
-            "a.toml cannot be saved: its text cannot be changed so; write the values by hand");
+  EXPECT_EQ(
+      refusal("[[style]]\nobject = \"Vase\"\n", {"style[0].object=[\"T\xbf\"]", "tone.gamma=2"}),
+      "a.toml cannot be saved: its text cannot be changed so; write the values by hand");
 }
 
 TEST(WriteLook, WhatMeansTheSameIsNotTouched) {
