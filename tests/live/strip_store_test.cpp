@@ -101,7 +101,7 @@ TEST_F(Store, WhatIsToMendIsAskedAbout) {
 }
 
 TEST_F(Store, WhatIsNoStripLeavesNothing) {
-  for (const std::string bytes :
+  for (const std::string& bytes :
        {std::string(), std::string("no picture"), picture(1).substr(0, 60)})
     EXPECT_THROW(keepStrip(look(), "teal.png", bytes, true), InputError);
   EXPECT_TRUE(fs::is_empty(place_));

@@ -146,7 +146,7 @@ TEST(DraftLook, ExposesForWhatIsLit) {
 }
 
 TEST(DraftLook, NamesAreQuotedSoThatTheyFitThemselves) {
-  for (const std::string name :
+  for (const std::string& name :
        {std::string("a \"b\" \\ c"), std::string("line\nbreak\x01"), std::string("Vögel 鳥"),
         std::string("bad\xff\xfe utf"), std::string("cut \xe9\xb3"), std::string("x]=[#")}) {
     const DraftLook draft =

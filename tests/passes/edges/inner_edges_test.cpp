@@ -8,16 +8,17 @@
 namespace kagefude {
 namespace {
 
-constexpr int side = 24;
+constexpr int frameSide = 24;
 
 // Two surfaces of one object, one white and one black, seen by a parallel camera from above: a
 // pixel is one unit. Both are given by their heights.
 struct Picture {
   using Height = std::function<double(double, double)>;
-  Labels ids{side, side, 1u};
-  Plane<uint16_t> styles{side, side, uint16_t{1}};
-  Vec3Plane normal{side, side}, position{side, side};
-  Floats r{side, side}, g{side, side, 0.0f}, b{side, side, 0.0f}, a{side, side, 1.0f};
+  Labels ids{frameSide, frameSide, 1u};
+  Plane<uint16_t> styles{frameSide, frameSide, uint16_t{1}};
+  Vec3Plane normal{frameSide, frameSide}, position{frameSide, frameSide};
+  Floats r{frameSide, frameSide}, g{frameSide, frameSide, 0.0f}, b{frameSide, frameSide, 0.0f},
+      a{frameSide, frameSide, 1.0f};
   CameraRays rays;
   std::function<bool(double, double)> white;
 
@@ -29,8 +30,8 @@ struct Picture {
     rays.originY = {0, 1, 0};
     rays.direction0 = {0, 0, -1};
     rays.origin0 = {0, 0, 100};
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < frameSide; ++y)
+      for (int x = 0; x < frameSide; ++x) {
         const double px = x + 0.5, py = y + 0.5;
         const Height& height = isWhite(px, py) ? whiteHeight : blackHeight;
         const double z = height(px, py);
@@ -61,8 +62,8 @@ struct Picture {
   float error() const {
     double sum = 0;
     int count = 0;
-    for (int y = 2; y < side - 2; ++y)
-      for (int x = 2; x < side - 2; ++x) {
+    for (int y = 2; y < frameSide - 2; ++y)
+      for (int x = 2; x < frameSide - 2; ++x) {
         const float share = area(x, y);
         if (share <= 0 || share >= 1) continue;
         sum += (r(x, y) - share) * (r(x, y) - share);
@@ -136,13 +137,13 @@ TEST(InnerEdges, ACornerOfThreeSidesIsCutByAll) {
 
 TEST(InnerEdges, LeavesPixelsAwayFromEdgesAndOtherObjectsAlone) {
   Picture picture = roof(0.4, 5);
-  for (int y = 0; y < side; ++y)
-    for (int x = 12; x < side; ++x) picture.ids(x, y) = 2, picture.r(x, y) = 0.5f;
+  for (int y = 0; y < frameSide; ++y)
+    for (int x = 12; x < frameSide; ++x) picture.ids(x, y) = 2, picture.r(x, y) = 0.5f;
   const Floats before = picture.r.clone();
   picture.blend();
   int changed = 0;
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
+  for (int y = 0; y < frameSide; ++y)
+    for (int x = 0; x < frameSide; ++x) {
       changed += picture.r(x, y) != before(x, y);
       if (x >= 12) changed += 100 * (std::fabs(picture.r(x, y) - 0.5f) > 1e-6f);
     }
@@ -153,22 +154,23 @@ TEST(InnerEdges, LeavesPixelsAwayFromEdgesAndOtherObjectsAlone) {
 TEST(InnerEdges, BordersOfPaintAreEdges) {
   Picture picture{[](double, double) { return 0.0; }, [](double, double) { return 0.0; },
                   [](double x, double y) { return y > 6.2 + 0.4 * x; }};
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) picture.styles(x, y) = picture.r(x, y) > 0 ? 2 : 1;
+  for (int y = 0; y < frameSide; ++y)
+    for (int x = 0; x < frameSide; ++x) picture.styles(x, y) = picture.r(x, y) > 0 ? 2 : 1;
   picture.blend();
   EXPECT_LT(picture.error(), 0.12f);
 }
 
 TEST(InnerEdges, MirrorsExactly) {
   Picture picture = roof(0.37, 7.3);
-  Picture mirrored{[](double x, double y) { return -2 * std::fabs(y - 7.3 - 0.37 * (side - x)); },
-                   [](double x, double y) { return -1.5 * std::fabs(y - 7.3 - 0.37 * (side - x)); },
-                   [](double x, double y) { return y - 7.3 - 0.37 * (side - x) > 0; }};
+  Picture mirrored{
+      [](double x, double y) { return -2 * std::fabs(y - 7.3 - 0.37 * (frameSide - x)); },
+      [](double x, double y) { return -1.5 * std::fabs(y - 7.3 - 0.37 * (frameSide - x)); },
+      [](double x, double y) { return y - 7.3 - 0.37 * (frameSide - x) > 0; }};
   picture.blend();
   mirrored.blend();
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
-      EXPECT_NEAR(picture.r(x, y), mirrored.r(side - 1 - x, y), 1e-4f) << x << " " << y;
+  for (int y = 0; y < frameSide; ++y)
+    for (int x = 0; x < frameSide; ++x)
+      EXPECT_NEAR(picture.r(x, y), mirrored.r(frameSide - 1 - x, y), 1e-4f) << x << " " << y;
 }
 
 }  // namespace
