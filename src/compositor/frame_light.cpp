@@ -307,10 +307,8 @@ bool isRound(const FrameLight& light) {
 
 bool readsDepthMap(const FrameLight& light) {
   const ShadowNeeds& needs = entryOf(light.method).needs;
-  const LightShapeParams& params = light.passes.lightShape;
-  const bool styled = params.grow != 0 || params.soften > 0 || params.abstract > 0;
-  return needs.depthMap ||
-         (needs.depthMapHelps && light.depthMap && isRound(light) && params.depthMap && !styled);
+  return needs.depthMap || (needs.depthMapHelps && light.depthMap && isRound(light) &&
+                            light.passes.lightShape.depthMap);
 }
 
 /// The look's own scene, the same in every frame, over what the sidecar says.

@@ -145,8 +145,6 @@ inline bool takesPair(const std::string& section) {
 /// What a section wants before it can do anything.
 inline std::string contextOf(const std::string& section) {
   const std::string start = "[shadow]\nmethod = \"";
-  if (section == "light_shape") return "";
-  if (section == "smooth") return start + "pair\"\n";
   if (section == "planar" || section == "blob")
     return start + section + "\"\nreceiver = \"Ground\"\n";
   if (section == "pair" || section == "pair_depth" || section == "pcf" || section == "pcss" ||
@@ -158,6 +156,7 @@ inline std::string contextOf(const std::string& section) {
 
 /// What a key wants beside its section's context, as overrides are written.
 inline const std::map<std::string, std::string> companions = {
+    {"smooth.h", "smooth.all_methods = true\n"},
     {"pair.step", "pair.search = \"grid\"\n"},
     {"pair.adaptive", "pair.search = \"grid\"\npair.step = 8\n"},
     {"outline.objects", "outline.depth_step = 0\noutline.crease_angle = 180\n"},

@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../../src"
 house=(base image passes exr picture oiio colour frame look compositor imagebuf sequence live cli)
-passes=(search tone strip light_shape depth_map casters brush edges measure)
+passes=(search tone strip light_shape depth_map casters brush edges ground measure)
 bad=0
 
 # check PREFIX ROOM...: the rooms below PREFIX (empty: all of src/) in their order.

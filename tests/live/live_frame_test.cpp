@@ -66,7 +66,7 @@ class Live : public ::testing::Test, protected testing::SweepFrame {
     set.push_back("output.layers=[\"visibility.*\", \"brush.tone\"]");
     const Look look = lookOf(text, set);
     StageRun run;
-    if (stripsAnew) wholeShelf = {};
+    if (stripsAnew) wholeShelf = StripShelf();
     const Made<StripSet> strips = wholeShelf.stripsOf(look, wholeShelf.colourOf(look, run), run);
     const FramePlan plan = planFrame(look, live.path(), 1);
     const FrameResult whole = composeFrame(look, *strips, plan, readFramePlanes(plan));

@@ -5,6 +5,7 @@ namespace {
 
 constexpr float ownElevation = 0.03f;      ///< sine of what is the receiver's own surface
 constexpr float agreement = 1.0f / 64.0f;  ///< of merged rectangles, radii
+constexpr float overlap = 1.0f / 256.0f;   ///< of blocks, so that neighbours leave no gap, radii
 constexpr float smallest = 1.0f / 24.0f;   ///< square that one texel stands for, radii
 
 float low(float a, float b) { return b < a ? b : a; }
@@ -121,10 +122,10 @@ LightRectangle MapShadow::blockRectangle(const Block& block) const {
   const float right = static_cast<float>(block.x1 + 1) - r_.u;
   const float top = static_cast<float>(block.y0) - r_.v;
   const float bottom = static_cast<float>(block.y1 + 1) - r_.v;
-  return {low(left * near, left * far) * r_.perRadius.x,
-          high(right * near, right * far) * r_.perRadius.x,
-          low(top * near, top * far) * r_.perRadius.y,
-          high(bottom * near, bottom * far) * r_.perRadius.y};
+  return {low(left * near, left * far) * r_.perRadius.x - overlap,
+          high(right * near, right * far) * r_.perRadius.x + overlap,
+          low(top * near, top * far) * r_.perRadius.y - overlap,
+          high(bottom * near, bottom * far) * r_.perRadius.y + overlap};
 }
 
 MapShadow::Block MapShadow::blockOf(const Node& node) const {
@@ -192,10 +193,10 @@ bool MapShadow::isSmall(float radii) const {
   return radii * high(r_.perRadius.x, r_.perRadius.y) < smallest;
 }
 
-/// Whether the block's middle texel blocks; then the block takes its depth.
+/// Whether the block's middle texel blocks; a block that holds what does not takes its depth.
 bool MapShadow::middleBlocks(Block& block) const {
   const int x = (block.x0 + block.x1 + 1) / 2, y = (block.y0 + block.y1 + 1) / 2;
-  block.nearest = block.farthest = depth_(x, y);
+  if (!(block.farthest < r_.depth)) block.nearest = block.farthest = depth_(x, y);
   return blocks(x, y);
 }
 

@@ -215,8 +215,11 @@ LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks
       follow.emplace(masks, places, distances, wanted, labels, position, normal, *geometry, radius);
   }
   const LightShare share(places, linear, radius), horizonShare(places, true, radius);
-  return resolve({masks, classes, wanted, labels, distances, share, horizonShare,
-                  follow ? &*follow : nullptr, horizon ? &*horizon : nullptr, params.grow});
+  LightShapeResult result =
+      resolve({masks, classes, wanted, labels, distances, share, horizonShare,
+               follow ? &*follow : nullptr, horizon ? &*horizon : nullptr, params.grow});
+  if (style) result.unsure = {};
+  return result;
 }
 
 }  // namespace kagefude

@@ -66,7 +66,7 @@ struct LightGeometry {
 struct LightShapeResult {
   Floats visibility;
   Floats confidence;  ///< 1 where distances are measured, falling to 0 where they are extrapolated
-  Bytes unsure;       ///< 1 where masks disagree or a shadow was followed, else 0
+  Bytes unsure;  ///< 1 where masks disagree or a shadow was followed; empty with a style
 };
 
 /// Visibility of a disc, rectangle or line light from K hard masks of known places: the share of
