@@ -182,7 +182,7 @@ class BackProjector {
 };
 
 constexpr int step = 4;              ///< of the sparse answers of large frames, pixels
-constexpr int largeFrame = 1 << 20;  ///< pixels
+constexpr int largeFrame = 1 << 18;  ///< pixels
 constexpr float sameShade = 0.1f;    ///< spread of corners between which is interpolated
 
 /// Answers at every fourth pixel of every fourth row, for large frames: a penumbra that is wide
