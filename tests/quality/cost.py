@@ -108,14 +108,14 @@ def measure(scene, options, version):
                     f"{cost.seconds / one.seconds:.1f} | {rmse:.4f} | {cost.megabytes:.0f} MB | |")
     for masks, by in itertools.product(options.masks, options.by):
         folder = f"{scene}/{by}"
-        cost = least(options.runs, export, shot, folder, "--masks", f"disc:{masks}", "--masks-by", by)
+        cost = least(options.runs, export, shot, folder, "--masks", masks, "--masks-by", by)
         with open(f"{folder}/s.0001.json", encoding="utf-8") as file:
             way = json.load(file)["lights"][0]["masks"]["by"]
         comped = comp(folder).seconds
         rmse = penumbra_rmse(f"{folder}/comp.0001.exr", "visibility.Key", masks_truth, options.truth)
         peer, samples = cost_at(rmse, traced)
         total = cost.seconds + comped
-        rows.append(f"| {version} | {scene} | {masks} masks by {way}, and comp | {cost.seconds:.1f} + "
+        rows.append(f"| {version} | {scene} | {masks} by {way}, and comp | {cost.seconds:.1f} + "
                     f"{comped:.1f} | {cost.seconds / one.seconds:.1f} | {rmse:.4f} | "
                     f"{cost.megabytes:.0f} MB | {total / peer:.2f} of tracing's {peer:.1f} "
                     f"({samples:.0f} samples) |")
@@ -129,7 +129,8 @@ def main():
     parser.add_argument("--samples", default=[16, 64, 256], type=numbers)
     parser.add_argument("--truth", default=512, type=int)
     parser.add_argument("--by", default=["auto", "layers", "groups"], type=lambda t: t.split(","))
-    parser.add_argument("--masks", default=[9, 33], type=numbers)
+    parser.add_argument("--masks", default=["pair", "disc:5", "disc:9", "disc:17"],
+                        type=lambda t: t.split(","))
     parser.add_argument("--runs", default=2, type=int)
     parser.add_argument("--masks-against", type=os.path.abspath)
     options = parser.parse_args()
