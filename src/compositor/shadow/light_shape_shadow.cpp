@@ -5,15 +5,12 @@
 namespace kagefude {
 namespace {
 
-/// A sun's masks turn the way its light goes; the way to it turns against that.
 std::vector<PlacedMask> placedMasks(const ShadowWork& work) {
   const FrameLight& light = work.light;
-  const float sign = light.geometry->sun ? -1 : 1;
   std::vector<PlacedMask> placed;
   for (size_t k = 0; k < work.planes.masks.size(); ++k)
-    placed.push_back(
-        {work.planes.masks[k],
-         (light.geometry->u * light.places[k].x + light.geometry->v * light.places[k].y) * sign});
+    placed.push_back({work.planes.masks[k], light.geometry->u * light.places[k].x +
+                                                light.geometry->v * light.places[k].y});
   return placed;
 }
 
