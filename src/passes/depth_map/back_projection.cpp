@@ -46,6 +46,7 @@ class BackProjector {
     for (const PlacedMask& mask : masks) offsets_.push_back(turned(mask.offset));
   }
 
+  /// What the light shows of itself at one pixel.
   PixelAnswer at(const Receivers& in, int x, int y) const {
     MapReceivers found;
     projector_.receive(in.position, in.normal, in.labels, x, y, 1, found);
@@ -65,6 +66,7 @@ class BackProjector {
     return {static_cast<float>(LightPoints::size - hidden.count()) / LightPoints::size,
             seen.contradicted(x, y)};
   }
+
   /// Whether masks disagree at a pixel.
   bool masksDisagree(int x, int y) const {
     for (const PlacedMask& mask : masks_)
@@ -181,9 +183,9 @@ class BackProjector {
   LightPoints points_;
 };
 
-constexpr int step = 4;              ///< of the sparse answers of large frames, pixels
-constexpr int largeFrame = 1 << 18;  ///< pixels
-constexpr float sameShade = 0.1f;    ///< spread of corners between which is interpolated
+constexpr int step = 4;                         ///< of the sparse answers of large frames, pixels
+constexpr size_t largeFrame = size_t{1} << 18;  ///< pixels
+constexpr float sameShade = 0.1f;               ///< spread of corners between which is interpolated
 
 /// Answers at every fourth pixel of every fourth row, for large frames: a penumbra that is wide
 /// there is interpolated between them.
@@ -259,6 +261,9 @@ BackProjection backProject(Vec3View position, Vec3View normal, View<const uint32
                            std::span<const PlacedMask> masks, View<const uint8_t> wanted) {
   const int width = labels.width, height = labels.height;
   if (map.depth.empty()) throw InputError("the light's depth map is empty");
+  if (masks.size() > mostMasks)
+    throw InputError(
+        fmt::format("a light has at most {} shadow masks, not {}", mostMasks, masks.size()));
   requireSize("the position pass", position, width, height);
   requireSize("the normal pass", normal, width, height);
   for (const PlacedMask& mask : masks) requireSize("a mask", mask.mask, width, height);
@@ -266,7 +271,7 @@ BackProjection backProject(Vec3View position, Vec3View normal, View<const uint32
   const BackProjector projector(map, lightRadius, bias, masks);
   const Receivers in{position, normal, labels, wanted};
   std::optional<SparseAnswers> sparse;
-  if (width * height > largeFrame) sparse.emplace(projector, in);
+  if (labels.pixels() > largeFrame) sparse.emplace(projector, in);
   BackProjection result{Floats(width, height, 1.0f), Bytes(width, height, uint8_t{0})};
   parallelRows(height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)

@@ -10,7 +10,7 @@ namespace kagefude {
 /// A hard mask of the same light. mask: 0 = the light is hidden from that place, else seen.
 struct PlacedMask {
   View<const uint8_t> mask;
-  V3f offset{0, 0, 0};  ///< of its place from the light's centre, world; a sun's: of its direction
+  V3f offset{0, 0, 0};  ///< of its place from the light's centre, world; a sun's: of the way to it
 };
 
 struct BackProjection {
@@ -37,8 +37,11 @@ struct BackProjection {
 /// half a texel; masks tell (pair_depth.h).
 /// Only what the centre sees is known: what stands behind it hides nothing. Squares reach at most
 /// 512 texels round the receiver. Outside the map, behind the light, NaN: lit.
-/// Throws InputError when sizes differ or the map is empty. Cost: one read of a pixel's window of
-/// the map, as wide as the light's shadow through the nearest blocker there: 2 ns a texel.
+/// Frames of more than 512 x 512 pixels have every fourth pixel of every fourth row first; between
+/// four that differ by less than 0.1 is interpolated.
+/// Throws InputError when sizes differ, the map is empty or masks are more than mostMasks. Cost:
+/// one read of a pixel's window of the map, as wide as the light's shadow through the nearest
+/// blocker there: 2 ns a texel.
 BackProjection backProject(Vec3View position, Vec3View normal, View<const uint32_t> labels,
                            const ShadowMap& map, float lightRadius, float bias,
                            std::span<const PlacedMask> masks, View<const uint8_t> wanted = {});

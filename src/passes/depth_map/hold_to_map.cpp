@@ -3,13 +3,18 @@
 #include <algorithm>
 
 #include "image/parallel.h"
+#include "passes/tone/smooth.h"
 
 namespace kagefude {
 namespace {
 
-constexpr int margin = 4;        ///< pixels round unsure ones
-constexpr float bias = 0.5f;     ///< texel widths at the receiver
-constexpr float refuted = 3.0f;  ///< one mask in so many contradicts: the map has no weight
+constexpr int margin = 4;     ///< pixels round unsure ones
+constexpr float bias = 0.5f;  ///< texel widths at the receiver
+constexpr int window = 3;     ///< half of the square over which contradictions are averaged, pixels
+constexpr float refuted = 1.0f / 3.0f;  ///< share of contradicting masks from which the map is out
+
+constexpr float alone = 1.3f;         ///< of a pixel by itself: a tenth of its masks may contradict
+constexpr float mostInUmbra = 0.08f;  ///< of a light that no mask sees, between the masks' places
 
 /// Pixels within `margin` rows and columns of a marked one.
 Bytes grown(View<const uint8_t> marked) {
@@ -30,6 +35,25 @@ Bytes grown(View<const uint8_t> marked) {
   return result;
 }
 
+Floats sharesOf(View<const uint8_t> contradicted, size_t masks) {
+  Floats shares(contradicted.width, contradicted.height);
+  parallelRows(contradicted.height, [&](int y0, int y1) {
+    for (int y = y0; y < y1; ++y)
+      for (int x = 0; x < contradicted.width; ++x)
+        shares(x, y) = static_cast<float>(contradicted(x, y)) / static_cast<float>(masks);
+  });
+  return shares;
+}
+
+/// Of the map, by the share of contradicting masks at a pixel and their mean around it. A mask's
+/// edge that lies a little beside the map's makes a line of pixels that one mask contradicts; the
+/// mean keeps such lines out of the picture.
+float weightOf(float here, float around) {
+  const float bySurroundings = 1 - around / refuted;
+  const float byItself = alone - here / refuted;
+  return std::clamp(std::min(bySurroundings, byItself), 0.0f, 1.0f);
+}
+
 }  // namespace
 
 void holdToMap(std::span<const PlacedMask> masks, Vec3View position, Vec3View normal,
@@ -38,15 +62,17 @@ void holdToMap(std::span<const PlacedMask> masks, Vec3View position, Vec3View no
   const Bytes wanted = grown(shape.unsure);
   const BackProjection back =
       backProject(position, normal, surfaces, map, lightRadius, bias, masks, wanted);
-  const float perMask = refuted / static_cast<float>(masks.size());
+  const Floats doubt = sharesOf(back.contradicted, masks.size());
+  const Floats around = smoothWithinSurfaces(doubt, surfaces, SmoothParams{window});
   parallelRows(surfaces.height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)
       for (int x = 0; x < surfaces.width; ++x) {
         if (!wanted(x, y) || surfaces(x, y) == 0) continue;
-        const float weight =
-            std::max(0.0f, 1 - perMask * static_cast<float>(back.contradicted(x, y)));
+        const float weight = weightOf(doubt(x, y), around(x, y));
         float &visibility = shape.visibility(x, y), &confidence = shape.confidence(x, y);
-        visibility += weight * (back.visibility(x, y) - visibility);
+        const bool umbra = visibility == 0.0f && shape.unsure(x, y) == 0;
+        const float most = umbra ? mostInUmbra : 1.0f;
+        visibility += weight * (std::min(back.visibility(x, y), most) - visibility);
         confidence += weight * (1 - confidence);
       }
   });

@@ -27,8 +27,8 @@ bool Horizon::explains(std::span<const View<const uint8_t>> masks, int x, int y,
                        float* height) const {
   const V3f n = normal_(x, y);
   const V3f towards = geometry_.sun ? -geometry_.direction : geometry_.position - position_(x, y);
-  const float middle = n.dot(towards), sign = geometry_.sun ? -1.0f : 1.0f;
-  const float u = sign * n.dot(geometry_.u), v = sign * n.dot(geometry_.v);
+  const float middle = n.dot(towards);
+  const float u = n.dot(geometry_.u), v = n.dot(geometry_.v);
   // Wholly above the horizon: it hides nothing. Places reach a little beyond 1 for rounding.
   if (middle > 1.5f * (std::fabs(u) + std::fabs(v))) return false;
   for (size_t k = 0; k < masks.size(); ++k) {

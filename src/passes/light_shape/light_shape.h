@@ -57,7 +57,7 @@ struct LightGeometry {
   V3f position{0, 0, 0};    ///< world; not for a sun
   V3f direction{0, 0, -1};  ///< unit, the way the light travels; for a sun only
   V3f u{0, 0, 0},
-      v{0, 0, 0};       ///< world vectors of one unit of place; for a sun change of direction
+      v{0, 0, 0};       ///< world vectors of one unit of place; a sun's change the way to it
   bool sphere = false;  ///< the light is round from every side: its disc faces each receiver
 };
 

@@ -179,6 +179,28 @@ TEST(BackProjection, MasksThatTheMapBearsOutAreNotContradicted) {
   }
 }
 
+TEST(BackProjection, ASunIsWideByItsAngle) {
+  Floor floor;
+  floor.block(5, left);
+  floor.map.clipFromLight = {};
+  floor.map.clipFromLight.m[0][0] = floor.map.clipFromLight.m[1][1] = 0.1;
+  floor.map.clipFromLight.m[2][2] = -0.1;
+  const float tangent = 0.1f;
+  Bytes mask(400, 1, uint8_t{0});
+  for (int x = 0; x < 400; ++x) mask(x, 0) = floor.position.view()(x, 0).x > -0.25f;
+  // Half the sun's radius to the right: the edge, 5 over the floor, throws its shadow 0.25 to the
+  // left.
+  const PlacedMask masks[] = {{mask, V3f(0.05f, 0, 0)}};
+  const BackProjection back = floor.with(tangent, masks);
+  for (int x = 0; x < 400; ++x) {
+    const float place = floor.position.view()(x, 0).x;
+    EXPECT_NEAR(back.visibility(x, 0), discShare(place / (5 * tangent)), 0.05f) << x;
+    if (std::fabs(place + 0.25f) > 0.05f) {
+      EXPECT_EQ(back.contradicted(x, 0), 0) << x;
+    }
+  }
+}
+
 TEST(BackProjection, LargeFramesAreInterpolatedWherePenumbraeAreWide) {
   Floor floor(1400, 800);
   floor.block(5, left);

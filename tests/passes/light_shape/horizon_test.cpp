@@ -102,6 +102,7 @@ TEST(Horizon, MasksThatSayOtherwiseAreNotExplained) {
   EXPECT_FALSE(above.explains(high.views(), 0, 0, height)) << "all seen: the horizon hides nothing";
 }
 
+// A place's light travels along direction - (u, v) · place, as the exporter writes it.
 TEST(Horizon, OfASunGoesByItsDirection) {
   Terminator t(0.03);
   t.geometry.sun = true;
@@ -112,7 +113,7 @@ TEST(Horizon, OfASunGoesByItsDirection) {
   t.masks.clear();
   for (const V2f& p : t.places)
     t.masks.emplace_back(
-        1, 1, n.dot(-(t.geometry.direction + t.geometry.u * p.x + t.geometry.v * p.y)) > 0);
+        1, 1, n.dot(-t.geometry.direction + t.geometry.u * p.x + t.geometry.v * p.y) > 0);
   const double d = n.x / (0.1 * n.z);
   EXPECT_NEAR(t.visibility(), 0.5 + (d * std::sqrt(1 - d * d) + std::asin(d)) / M_PI, 1e-3);
 }
