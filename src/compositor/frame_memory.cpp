@@ -73,7 +73,8 @@ size_t chunkBytes(const FramePlan& plan, size_t bytesPerPixel) {
 size_t depthMapBytes(const FramePlan& plan) {
   size_t bytes = 0;
   for (const FrameLight& light : plan.lights) {
-    if (!light.readsDepthMap) continue;
+    std::error_code unknown;
+    if (!light.readsDepthMap || !std::filesystem::exists(light.depthMap->file, unknown)) continue;
     const ImageFile map = openImage(light.depthMap->file);
     bytes += 4 * static_cast<size_t>(map.width) * static_cast<size_t>(map.height);
   }

@@ -75,6 +75,21 @@ Floats readDepthMap(const DepthMapSource& source) {
   return std::move(readFloats(image, std::vector{channel}).at(0));
 }
 
+/// Empty where the method wants none, and, with a warning, where it would only help and is gone.
+Floats depthMapOf(const FrameLight& light, std::vector<std::string>& warnings) {
+  if (!light.readsDepthMap) return {};
+  std::error_code unknown;
+  if (!entryOf(light.method).needs.depthMap &&
+      !std::filesystem::exists(light.depthMap->file, unknown)) {
+    warnings.push_back(
+        fmt::format("the depth map of light {} does not exist, so its masks alone make its shadow; "
+                    "keep it beside the frame, or set light_shape.depth_map = false",
+                    light.name));
+    return {};
+  }
+  return readDepthMap(*light.depthMap);
+}
+
 /// A pixel without a normal shows no surface, whatever its id says.
 void clearWithoutNormal(FramePlanes& planes) {
   parallelRows(planes.height, [&](int first, int end) {
@@ -206,8 +221,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
       mask = Floats();
     }
     own.traced = std::move(traced[i]);
-    if (plan.lights[i].readsDepthMap)
-      own.depthMap = readDepthMap(*plan.lights[i].depthMap);
+    own.depthMap = depthMapOf(plan.lights[i], planes.warnings);
   }
   planes.objectId = idsFrom(objects, plan.idSource);
   if (plan.materialId) planes.materialId = idsFrom(materials, plan.materialSource);

@@ -23,7 +23,7 @@ LightVisibility lightShapeShadow(const ShadowWork& work) {
   LightShapeResult shape =
       lightShapeVisibility(viewsOf(work.planes.masks), light.places, labelsFor(params.bound, work),
                            frame.position, frame.normal, light.geometry, params);
-  if (light.readsDepthMap && params.lightSize > 0 && !shape.unsure.empty()) {
+  if (!work.planes.depthMap.empty() && params.lightSize > 0 && !shape.unsure.empty()) {
     const ShadowMap map{work.planes.depthMap, light.depthMap->lightFromWorld,
                         light.depthMap->clipFromLight};
     holdToMap(placedMasks(work), frame.position, frame.normal, work.surfaces, map,

@@ -1,0 +1,32 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "compositor/sweep_frame.h"
+
+namespace kagefude {
+namespace {
+
+struct MissingDepthMap : ::testing::Test, testing::SweepFrame {
+  MissingDepthMap() { std::filesystem::remove(frame.folder / "depth.exr"); }
+};
+
+TEST_F(MissingDepthMap, MasksDoWithoutAndSayIt) {
+  const FrameResult result = frame.comp("");
+  EXPECT_EQ(std::count_if(result.warnings.begin(), result.warnings.end(),
+                          [](const std::string& warning) {
+                            return warning.find("the depth map of light Key does not exist") !=
+                                   std::string::npos;
+                          }),
+            1);
+  const FrameResult alone = frame.comp("light_shape.depth_map = false\n");
+  for (const std::string& warning : alone.warnings)
+    EXPECT_EQ(warning.find("depth map"), std::string::npos) << warning;
+}
+
+TEST_F(MissingDepthMap, AMethodThatIsMadeOfItIsRefused) {
+  EXPECT_NE(frame.errorOf("shadow.method = \"pcss\"\n").find("depth.exr"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace kagefude
