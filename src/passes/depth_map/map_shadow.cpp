@@ -36,13 +36,14 @@ MapShadow::MapShadow(View<const float> depth, const DepthPyramid& pyramid, bool 
   }
 }
 
-/// Texels round the receiver that the light's disc covers through a blocker of that depth.
+/// Texels round the receiver that the light's disc covers through a blocker of that depth; the
+/// farthest where a mask's place, beside the receiver, leaves that unknown.
 float MapShadow::reachOf(float blocker) const {
   const float between = high(0, r_.depth - blocker);
   const float size =
       extent_ * between * r_.texelsPerUnit /
       (low(r_.perRadius.x, r_.perRadius.y) * (perspective_ ? high(blocker, 1e-6f) : 1));
-  return 1 + low(size, farthest);
+  return 1 + (size < farthest ? size : farthest);
 }
 
 float MapShadow::nearestWithin(float reach) const {

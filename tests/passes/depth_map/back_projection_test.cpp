@@ -7,45 +7,17 @@
 #include <random>
 
 #include "base/error.h"
+#include "passes/depth_map/map_floor.h"
 #include "passes/depth_map/map_taps.h"
 #include "passes/light_shape/light_share.h"
 
 namespace kagefude {
 namespace {
 
-constexpr float lightHeight = 10;
+constexpr float lightHeight = MapFloor::lightHeight;
 
-/// A floor at z = 0 under a light at (0, 0, 10), whose map of 256 x 256 sees x and y in [-10, 10]
-/// there; receivers on a row of the floor, or on more rows of it.
-struct Floor {
-  Floats depth{256, 256, lightHeight};
-  Vec3Plane position, normal;
-  Labels labels;
-  ShadowMap map;
-
-  explicit Floor(int width = 400, int height = 1, float side = 8)
-      : position(width, height), normal(width, height), labels(width, height, 1u) {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const float across = (static_cast<float>(x) + 0.5f) / static_cast<float>(width) - 0.5f;
-        const float down = (static_cast<float>(y) + 0.5f) / static_cast<float>(height) - 0.5f;
-        position.set(x, y, V3f(side * across, -side * down, 0));
-        normal.set(x, y, V3f(0, 0, 1));
-      }
-    map.depth = depth;
-    map.lightFromWorld.m[2][3] = -lightHeight;
-    map.clipFromLight.m[2][2] = -1;
-    map.clipFromLight.m[2][3] = -0.2;
-    map.clipFromLight.m[3][2] = -1;
-    map.clipFromLight.m[3][3] = 0;
-  }
-
-  /// Puts a blocker of one depth wherever `there` says of a texel.
-  void block(float at, const std::function<bool(int, int)>& there) {
-    for (int y = 0; y < 256; ++y)
-      for (int x = 0; x < 256; ++x)
-        if (there(x, y)) depth(x, y) = at;
-  }
+struct Floor : MapFloor {
+  using MapFloor::MapFloor;
 
   Floats visibility(float radius) const { return with(radius, {}).visibility; }
   BackProjection with(float radius, std::span<const PlacedMask> masks) const {
@@ -231,6 +203,15 @@ TEST(BackProjection, BackgroundBehindTheLightAndNanAreLit) {
   const Floats v = floor.visibility(0.5f);
   EXPECT_EQ(v(200, 0), 0.0f);
   for (const int x : {10, 11, 12}) EXPECT_EQ(v(x, 0), 1.0f) << x;
+}
+
+TEST(BackProjection, APlaceAsFarAsTheReceiverHolds) {
+  Floor floor;
+  const Bytes seen(400, 1, uint8_t{1});
+  // Seen from the floor this place lies at the horizon of the light's plane: nowhere on its disc.
+  const PlacedMask masks[] = {{seen, V3f(0.1f, 0, -lightHeight)}};
+  const BackProjection back = floor.with(0.5f, masks);
+  for (int x = 0; x < 400; ++x) EXPECT_EQ(back.visibility(x, 0), 1.0f) << x;
 }
 
 TEST(BackProjection, NanDepthsAndRadiusZeroHold) {

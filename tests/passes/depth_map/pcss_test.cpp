@@ -3,32 +3,18 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "passes/depth_map/map_floor.h"
 #include "passes/depth_map/pcf.h"
 
 namespace kagefude {
 namespace {
 
-/// A floor at z = 0 under a light at (0, 0, 10) with a blocker at depth `blocker` over x < 0.
-struct Scene {
+/// A floor with a blocker at depth `blocker` over x < 0.
+struct Scene : MapFloor {
   static constexpr int count = 400;
-  Floats depth{256, 256, 10.0f};
-  Vec3Plane position{count, 1}, normal{count, 1};
-  Labels labels{count, 1, 1u};
-  ShadowMap map;
 
-  explicit Scene(float blocker) {
-    for (int y = 0; y < 256; ++y)
-      for (int x = 0; x < 128; ++x) depth(x, y) = blocker;
-    for (int i = 0; i < count; ++i) {
-      position.set(i, 0, V3f(8.0f * (static_cast<float>(i) + 0.5f) / count - 4, 0, 0));
-      normal.set(i, 0, V3f(0, 0, 1));
-    }
-    map.depth = depth;
-    map.lightFromWorld.m[2][3] = -10;
-    map.clipFromLight.m[2][2] = -1;
-    map.clipFromLight.m[2][3] = -0.2;
-    map.clipFromLight.m[3][2] = -1;
-    map.clipFromLight.m[3][3] = 0;
+  explicit Scene(float blocker) : MapFloor(count) {
+    block(blocker, [](int x, int) { return x < 128; });
   }
   Floats visibility(float radius) const {
     return pcssVisibility(position, normal, labels, map, radius, {});
