@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "base/error.h"
 #include "compositor/sweep_frame.h"
 
 namespace kagefude {
@@ -25,7 +27,12 @@ TEST_F(MissingDepthMap, MasksDoWithoutAndSayIt) {
 }
 
 TEST_F(MissingDepthMap, AMethodThatIsMadeOfItIsRefused) {
-  EXPECT_NE(frame.errorOf("shadow.method = \"pcss\"\n").find("depth.exr"), std::string::npos);
+  try {
+    frame.comp("shadow.method = \"pcss\"\n");
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("depth.exr"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace
