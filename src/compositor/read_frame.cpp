@@ -9,6 +9,7 @@
 #include "base/nearest_name.h"
 #include "compositor/casting_scene.h"
 #include "compositor/doubt_bounds.h"
+#include "compositor/doubt_depth_map.h"
 #include "compositor/position_pass.h"
 #include "compositor/rest_pass.h"
 #include "compositor/unseen_things.h"
@@ -245,6 +246,8 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
   checkSpaces(plan, planes);
+  for (std::string& doubt : doubtDepthMaps(plan, planes))
+    planes.warnings.push_back(std::move(doubt));
   return planes;
 }
 

@@ -37,8 +37,9 @@ struct BackProjection {
 /// half a texel; masks tell (pair_depth.h).
 /// Only what the centre sees is known: what stands behind it hides nothing. Squares reach at most
 /// 512 texels round the receiver. Outside the map, behind the light, NaN: lit.
-/// Frames of more than 512 x 512 pixels have every fourth pixel of every fourth row first; between
-/// four that differ by less than 0.1 is interpolated.
+/// Frames of more than 512 x 512 pixels have every fourth pixel of every fourth row first, of more
+/// than 2048 x 2048 every eighth, then all at half those distances, and so on; between four of one
+/// surface that differ by less than 0.1 is interpolated.
 /// Throws InputError when sizes differ, the map is empty or masks are more than mostMasks. Cost:
 /// one read of a pixel's window of the map, as wide as the light's shadow through the nearest
 /// blocker there: 2 ns a texel.

@@ -1,6 +1,7 @@
 #include "passes/depth_map/hold_to_map.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "image/parallel.h"
 #include "passes/tone/smooth.h"
@@ -13,13 +14,22 @@ constexpr float bias = 0.5f;  ///< texel widths at the receiver
 constexpr int window = 3;     ///< half of the square over which contradictions are averaged, pixels
 constexpr float refuted = 1.0f / 3.0f;  ///< share of contradicting masks from which the map is out
 
+// The masks' error falls as one over their number, the map's does not: weighted by their squares,
+// the map counts as so many masks. It does so where both say about the same, and where the light
+// grazes, where a texel's depth tells less than a mask; elsewhere what masks do not contradict is a
+// thin shadow between their places, and the map's alone.
+constexpr float worth = 20;     ///< masks
+constexpr float apart = 0.25f;  ///< visibilities that far apart are not the same
+constexpr float grazes = 0.4f,
+                faces = 0.7f;  ///< cosines between the normal and the way to the light
+
 constexpr float alone = 1.3f;         ///< of a pixel by itself: a tenth of its masks may contradict
 constexpr float mostInUmbra = 0.08f;  ///< of a light that no mask sees, between the masks' places
 
 /// Pixels within `margin` rows and columns of a marked one.
 Bytes grown(View<const uint8_t> marked) {
   const int width = marked.width, height = marked.height;
-  Bytes across(width, height, uint8_t{0}), result(width, height, uint8_t{0});
+  Bytes across(width, height, uint8_t{0}), result(width, height);
   parallelRows(height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)
       for (int x = 0; x < width; ++x)
@@ -28,9 +38,16 @@ Bytes grown(View<const uint8_t> marked) {
                     across.row(y) + std::min(width, x + margin + 1), uint8_t{1});
   });
   parallelRows(height, [&](int y0, int y1) {
-    for (int y = y0; y < y1; ++y)
-      for (int row = std::max(0, y - margin); row <= std::min(height - 1, y + margin); ++row)
-        for (int x = 0; x < width; ++x) result(x, y) |= across(x, row);
+    for (int y = y0; y < y1; ++y) {
+      const uint8_t* rows[2 * margin + 1];
+      for (int k = 0; k <= 2 * margin; ++k)
+        rows[k] = across.row(std::clamp(y + k - margin, 0, height - 1));
+      for (int x = 0; x < width; ++x) {
+        uint8_t any = 0;
+        for (const uint8_t* row : rows) any |= row[x];
+        result(x, y) = any;
+      }
+    }
   });
   return result;
 }
@@ -54,6 +71,14 @@ float weightOf(float here, float around) {
   return std::clamp(std::min(bySurroundings, byItself), 0.0f, 1.0f);
 }
 
+/// Cosine between a normal and the way to the light.
+float facing(const ShadowMap& map, const V3f& position, const V3f& normal) {
+  const bool perspective = map.clipFromLight.m[3][2] != 0;
+  const V3d way = perspective ? -map.lightFromWorld.point(V3d(position)) : V3d(0, 0, 1);
+  const V3d turned = map.lightFromWorld.direction(V3d(normal));
+  return static_cast<float>(turned.dot(way) / way.length());
+}
+
 }  // namespace
 
 void holdToMap(std::span<const PlacedMask> masks, Vec3View position, Vec3View normal,
@@ -64,15 +89,21 @@ void holdToMap(std::span<const PlacedMask> masks, Vec3View position, Vec3View no
       backProject(position, normal, surfaces, map, lightRadius, bias, masks, wanted);
   const Floats doubt = sharesOf(back.contradicted, masks.size());
   const Floats around = smoothWithinSurfaces(doubt, surfaces, SmoothParams{window});
+  const float counted = static_cast<float>(masks.size() * masks.size());
+  const float most = counted / (counted + worth * worth);
   parallelRows(surfaces.height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)
       for (int x = 0; x < surfaces.width; ++x) {
         if (!wanted(x, y) || surfaces(x, y) == 0) continue;
-        const float weight = weightOf(doubt(x, y), around(x, y));
         float &visibility = shape.visibility(x, y), &confidence = shape.confidence(x, y);
+        const float grazing =
+            (faces - facing(map, position(x, y), normal(x, y))) / (faces - grazes);
+        const float alike = 1 - std::fabs(back.visibility(x, y) - visibility) / apart;
+        const float byMasks = most * std::clamp(std::max(grazing, alike), 0.0f, 1.0f);
+        const float weight = weightOf(doubt(x, y), around(x, y)) * (1 - byMasks);
         const bool umbra = visibility == 0.0f && shape.unsure(x, y) == 0;
-        const float most = umbra ? mostInUmbra : 1.0f;
-        visibility += weight * (std::min(back.visibility(x, y), most) - visibility);
+        const float brightest = umbra ? mostInUmbra : 1.0f;
+        visibility += weight * (std::min(back.visibility(x, y), brightest) - visibility);
         confidence += weight * (1 - confidence);
       }
   });

@@ -174,13 +174,33 @@ TEST(BackProjection, ASunIsWideByItsAngle) {
 }
 
 TEST(BackProjection, LargeFramesAreInterpolatedWherePenumbraeAreWide) {
-  Floor floor(1400, 800);
-  floor.block(5, left);
-  const float radius = 1.0f;
-  const Floats v = floor.visibility(radius);
-  for (int y = 0; y < 800; y += 37)
-    for (int x = 0; x < 1400; ++x)
-      EXPECT_NEAR(v(x, y), discShare(floor.position.view()(x, y).x / radius), 0.03f);
+  for (const int width : {1400, 2600}) {  // by four, by eight
+    const int height = width == 1400 ? 800 : 1701;
+    Floor floor(width, height);
+    floor.block(5, left);
+    const float radius = 1.0f;
+    const Floats v = floor.visibility(radius);
+    for (int y = 0; y < height; y += 50)
+      for (int x = 0; x < width; ++x)
+        EXPECT_NEAR(v(x, y), discShare(floor.position.view()(x, y).x / radius), 0.03f);
+  }
+}
+
+TEST(BackProjection, LargeFramesGiveLonePixelsTheirOwnAnswer) {
+  Floor small(640, 1), large(2600, 1701);
+  for (Floor* floor : {&small, &large}) floor->block(5, left);
+  Bytes wanted(2600, 1701, uint8_t{0});
+  for (int x = 3; x < 2600; x += 41) wanted(x, 777) = 1;
+  const auto hidden = [&](const V3f& p) {
+    small.position.set(0, 0, p);
+    return small.visibility(0.3f)(0, 0);
+  };
+  const BackProjection back =
+      backProject(large.position, large.normal, large.labels, large.map, 0.3f, 0.5f, {}, wanted);
+  for (int x = 0; x < 2600; ++x)
+    EXPECT_NEAR(back.visibility(x, 777),
+                wanted(x, 777) ? hidden(large.position.view()(x, 777)) : 1.0f, 0.06f)
+        << x;
 }
 
 TEST(BackProjection, WhatIsNotWantedIsPassedOver) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "passes/depth_map/half_floor.h"
 
 namespace kagefude {
@@ -45,6 +47,32 @@ TEST(HoldToMap, MasksThatContradictTakeItsWeight) {
   three.holdWithBlind(3);
   EXPECT_NEAR(one.shape.visibility(100, 0), 0.25f + 0.75f * (1 - 3.0f / 9), 1e-6f);
   EXPECT_NEAR(three.shape.visibility(100, 0), 0.25f, 1e-6f);
+}
+
+TEST(HoldToMap, WhereBothSayAboutTheSameTheyAreAMeanByTheSquaresOfTheMasks) {
+  // The open floor's map says 1; of nine masks the map counts 400 to 81.
+  for (const float said : {0.95f, 0.85f}) {
+    Held held;
+    held.shape.visibility = Floats(Held::count, 1, said);
+    held.shape.unsure(100, 0) = 1;
+    held.holdWithBlind(0);
+    const float byMasks = 81.0f / 481 * (1 - (1 - said) / 0.25f);
+    EXPECT_NEAR(held.shape.visibility(100, 0), 1 - (1 - said) * byMasks, 1e-6f);
+  }
+}
+
+TEST(HoldToMap, WhereTheLightGrazesMasksCountWhateverTheMapSays) {
+  const auto grazed = [](float cosine) {
+    Held held;
+    held.shape.unsure(100, 0) = 1;
+    // Seen from the middle of the floor the light is straight above: the normal's z is the cosine.
+    held.scene.normal.set(100, 0, V3f(std::sqrt(1 - cosine * cosine), 0, cosine));
+    held.holdWithBlind(0);
+    return held.shape.visibility(100, 0);
+  };
+  EXPECT_NEAR(grazed(0.3f), 0.25f + 0.75f * (1 - 81.0f / 481), 1e-3f);
+  EXPECT_NEAR(grazed(0.55f), 0.25f + 0.75f * (1 - 40.5f / 481), 2e-3f);
+  EXPECT_EQ(grazed(0.9f), 1.0f);
 }
 
 TEST(HoldToMap, AMaskThatContradictsAtOnePixelLeavesNoMark) {

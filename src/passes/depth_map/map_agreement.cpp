@@ -1,0 +1,79 @@
+#include "passes/depth_map/map_agreement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "passes/depth_map/map_receiver.h"
+#include "passes/require_size.h"
+#include "passes/tone/lambert.h"
+
+namespace kagefude {
+namespace {
+
+constexpr double places = 16384;
+constexpr float leastFacing = 0.2f;  ///< cosine between the normal and the way to the light
+constexpr float tolerance = 4;       ///< texel widths on the surface
+constexpr size_t enough = 64;        ///< pixels of a kind
+constexpr double leastSkill = 0.25;
+
+double share(size_t part, size_t whole) {
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+bool areAlike(std::span<const View<const uint8_t>> masks, int x, int y) {
+  const bool first = masks.front()(x, y) != 0;
+  return std::all_of(masks.begin(), masks.end(),
+                     [&](const View<const uint8_t>& mask) { return (mask(x, y) != 0) == first; });
+}
+
+/// Whether the map shows something before its lane 0; nothing is before what lies outside it.
+bool isHiddenInMap(const View<const float>& depth, const MapReceivers& found, float cosine) {
+  const float u = found.u[0], v = found.v[0];
+  if (found.visibility[0] != MapReceivers::open || !(u >= 0) || !(v >= 0) ||
+      !(u < static_cast<float>(depth.width)) || !(v < static_cast<float>(depth.height)))
+    return false;
+  const float margin = tolerance / (found.texelsPerUnit[0] * cosine);
+  return depth(static_cast<int>(u), static_cast<int>(v)) < found.depth[0] - margin;
+}
+
+}  // namespace
+
+bool MapAgreement::contradicts() const {
+  return hidden >= enough && lit >= enough &&
+         share(hiddenInMap, hidden) + share(litInMap, lit) - 1 < leastSkill;
+}
+
+MapAgreement agreementOf(std::span<const View<const uint8_t>> masks, const Light& light,
+                         Vec3View position, Vec3View normal, View<const uint32_t> labels,
+                         const ShadowMap& map) {
+  const int width = labels.width, height = labels.height;
+  if (map.depth.empty()) throw InputError("the light's depth map is empty");
+  requireSize("the position pass", position, width, height);
+  requireSize("the normal pass", normal, width, height);
+  for (const View<const uint8_t>& mask : masks) requireSize("a mask", mask, width, height);
+  MapAgreement result;
+  if (masks.empty()) return result;
+  const MapProjector projector(map);
+  const int stride =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(labels.pixels()) / places)));
+  MapReceivers found;
+  for (int y = stride / 2; y < height; y += stride)
+    for (int x = stride / 2; x < width; x += stride) {
+      if (labels(x, y) == 0 || !areAlike(masks, x, y)) continue;
+      const float cosine = normal(x, y).dot(towardsLight(light, position(x, y)));
+      if (!(cosine >= leastFacing)) continue;
+      projector.receive(position, normal, labels, x, y, 1, found);
+      const bool inMap = isHiddenInMap(map.depth, found, cosine);
+      if (masks.front()(x, y) == 0) {
+        ++result.hidden;
+        result.hiddenInMap += inMap;
+      } else {
+        ++result.lit;
+        result.litInMap += !inMap;
+      }
+    }
+  return result;
+}
+
+}  // namespace kagefude
