@@ -35,6 +35,11 @@ def has_raycast():
     return blender_says("hasattr(bpy.types, 'ShaderNodeRaycast')")
 
 
+def rays():
+    """The rays of this Blender's shader nodes."""
+    return "raycast" if has_raycast() else "occlusion"
+
+
 class MaskBackends(BlenderCase):
     def masks(self, output, frame=1):
         """({layer: values}, {light: backend}) of an exported frame."""
@@ -63,8 +68,8 @@ class MaskBackends(BlenderCase):
         frames = ("--frames", "1-2")
         _, ways, _ = self.exported(shot, "layers", *frames)
         self.assertEqual(set(ways.values()), {"layers"})
-        _, ways, said = self.exported(shot, "auto", *frames)
-        self.assertLessEqual(set(ways.values()), {"occlusion", "raycast"})
+        _, ways, said = self.exported(shot, rays(), *frames)
+        self.assertEqual(set(ways.values()), {rays()})
         self.assertEqual(self.notes(said), [])
         _, ways, _ = self.exported(shot, "groups", *frames)
         self.assertEqual(set(ways.values()), {"groups"})
@@ -72,10 +77,18 @@ class MaskBackends(BlenderCase):
             wanted, _ = self.masks("layers/s", frame)
             # Rays differ where smooth faces turn away, groups where an edge goes through a pixel's
             # centre, round which their samples lie.
-            self.assert_close(self.masks("auto/s", frame)[0], wanted, 1e-3)
+            self.assert_close(self.masks(f"{rays()}/s", frame)[0], wanted, 1e-3)
             self.assert_close(self.masks("groups/s", frame)[0], wanted, 1e-3)
-        self.assertNotEqual(self.masks("auto/s", 1)[0]["mask.Point.0"],
-                            self.masks("auto/s", 2)[0]["mask.Point.0"])
+        self.assertNotEqual(self.masks(f"{rays()}/s", 1)[0]["mask.Point.0"],
+                            self.masks(f"{rays()}/s", 2)[0]["mask.Point.0"])
+
+    def test_auto_takes_layers_where_they_cost_no_more_than_rays(self):
+        shot = self.build(SCENE)
+        for masks, wanted in (("disc:5", "raycast" if has_raycast() else "layers"),
+                              ("disc:33", rays())):
+            said = self.export(shot, "--masks", masks, "--light", "Point")
+            self.assertEqual(self.masks("out/s")[1], {"Point": wanted}, masks)
+            self.assertEqual(self.notes(said), [])
 
     def test_faces_without_a_material_and_bumps_have_the_masks_of_layers(self):
         """Nothing can be put into no material, and a bump turns a normal that no mask may know."""
@@ -106,18 +119,18 @@ box("Bumpy", (1.5, -1.8, 0), (2.2, -1.0, 0.8), bumpy)
 """):
             shot = self.build(SCENE + lines)
             wanted, _, _ = self.exported(shot, "layers", "--light", "Point")
-            found, ways, _ = self.exported(shot, "auto", "--light", "Point")
-            self.assertLessEqual(set(ways.values()), {"occlusion", "raycast"})
+            found, ways, _ = self.exported(shot, rays(), "--light", "Point")
+            self.assertEqual(set(ways.values()), {rays()})
             self.assert_close(found, wanted, 1e-3)
 
-    def ways(self, lines, by="auto"):
-        """({light: backend}, notes) of the scene with more lines."""
+    def ways(self, lines, by=None):
+        """({light: backend}, notes) of the scene with more lines, by rays."""
         shot = self.build(SCENE + lines)
-        said = self.export(shot, "--masks", "disc:5", "--masks-by", by, "--light", "Spot",
+        said = self.export(shot, "--masks", "disc:5", "--masks-by", by or rays(), "--light", "Spot",
                            "--light", "Sun")
         return self.masks("out/s")[1], [note for note in self.notes(said) if "masks of light" in note]
 
-    def assert_layers(self, lines, words, lights=("Spot", "Sun"), by="auto"):
+    def assert_layers(self, lines, words, lights=("Spot", "Sun"), by=None):
         ways, notes = self.ways(lines, by)
         self.assertEqual({light for light, way in ways.items() if way == "layers"}, set(lights))
         self.assertEqual(len(notes), len(lights), notes)
@@ -179,7 +192,7 @@ for name in ("Slab", "Ball"):
 bpy.data.objects["Box"].visible_camera = False
 """)
         wanted, _, _ = self.exported(shot, "layers")
-        found, ways, _ = self.exported(shot, "auto")
+        found, ways, _ = self.exported(shot, rays())
         self.assertEqual(set(ways.values()), {"layers"})
         self.assert_close(found, wanted, 0)
 
