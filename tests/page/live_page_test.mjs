@@ -29,8 +29,6 @@ let program;
 let address;
 let browser;
 let page;
-let asking = 0; // changes that are on their way
-let lastChange = 0;
 const strange = []; // what should not happen, whatever is done
 
 /** Serves a frame; gives the process and the page's address. */
@@ -66,19 +64,11 @@ beforeEach(async () => {
     if (!request.url().startsWith('http://127.0.0.1:') && !request.url().startsWith('data:'))
       strange.push(request.url());
   });
-  asking = lastChange = 0;
-  const isChange = (request) => request.url().endsWith('/change');
-  page.on('request', (request) => isChange(request) && ++asking);
-  page.on('response', async (response) => {
-    if (!isChange(response)) return;
-    lastChange = (await response.json()).change;
-    --asking;
-  });
-  await page.addInitScript(() =>
-    addEventListener('drawn', ({ detail }) => (window.drawn = detail), { capture: true }));
+  await page.addInitScript(watchChanges);
   await page.goto(address);
   // An earlier test's values are let go, and the file as it is now has been read.
-  await page.evaluate(() => fetch('change', { method: 'POST', body: '{"overrides":[]}' }));
+  await page.evaluate(async () =>
+    (await fetch('change', { method: 'POST', body: '{"overrides":[]}' })).json());
   await page.waitForFunction(async () => {
     const bytes = await (await fetch('picture?seen=0')).arrayBuffer();
     const length = new DataView(bytes).getUint32(0, true);
@@ -98,9 +88,27 @@ const shown = () => page.evaluate(async () => {
   return hash;
 });
 
+/** Runs in the page: counts the changes that are on their way, and keeps what was drawn last. */
+function watchChanges() {
+  Object.assign(window, { asking: 0, lastChange: 0, drawn: {} });
+  addEventListener('drawn', ({ detail }) => (window.drawn = detail), { capture: true });
+  const plain = window.fetch;
+  window.fetch = async (where, ...rest) => {
+    if (where !== 'change') return plain(where, ...rest);
+    ++window.asking;
+    const response = await plain(where, ...rest);
+    const { change } = await response.clone().json().catch(() => ({}));
+    setTimeout(() => { // what waits in the page is on its way then
+      window.lastChange = change ?? window.lastChange;
+      --window.asking;
+    }, 50);
+    return response;
+  };
+}
+
 /** Whether the last change is shown with all its pixels, as it is when the hand rests. */
-const isSettled = async () => asking === 0 &&
-  page.evaluate((change) => window.drawn?.step === 1 && window.drawn.change >= change, lastChange);
+const isSettled = () => page.evaluate(() =>
+  window.asking === 0 && window.drawn.step === 1 && window.drawn.change >= window.lastChange);
 
 /** Waits until what the canvas shows `fits`, has settled, and is so twice in a row. */
 async function shownWhere(fits, what) {
