@@ -82,7 +82,7 @@ void addReading(StageKey& key, const Look& look, const FramePlan& plan) {
   key.add(aovNamesTable, &look.frame).add(plan.image.view).add(plan.frame);
   for (const std::optional<Aov>& aov :
        {std::optional(plan.position), std::optional(plan.normal), plan.albedo, plan.beauty,
-        plan.rest, plan.uv, plan.instanceRandom, plan.depth, plan.coverage,
+        plan.rest, plan.uv, plan.instanceRandom, plan.emission, plan.depth, plan.coverage,
         std::optional(plan.objectId), plan.materialId})
     addAov(key, aov);
   addNames(key, plan.lines);
@@ -136,6 +136,7 @@ void addStrokes(StageKey& key, const Look& look, const FramePlan& plan) {
   addNames(key, plan.materialNames);
   for (const StyleLook& style : look.styles)
     key.add(styleTable, &style.style, {"colour", "outline_colour"});
+  for (const LightLook& light : look.lights) key.add(light.light.name).add(light.light.strip);
   addStyleSections(key, look, isOfStrokes);
 }
 

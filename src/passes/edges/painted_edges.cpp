@@ -18,13 +18,18 @@ float eased(float t) {
   return c * c * (3.0f - 2.0f * c);
 }
 
+float luminanceOf(const Rgba& colour) {
+  return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+}
+
 /// How bright a colour over nothing looks, about 0..1.
 float brightness(const Rgba& colour) {
-  const float luminance = 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+  const float luminance = luminanceOf(colour);
   return std::sqrt(luminance > 0.0f ? luminance : 0.0f);
 }
 
-/// Colour with its pigment `dense` times as dense.
+/// Colour with its pigment `dense` times as dense, but no less than 1 / dense as bright: what is
+/// dark already gains colour, not blackness.
 Rgba pooled(const Rgba& colour, float dense) {
   const float alpha = colour[3];
   if (!(alpha > 0.0f) || dense == 1.0f) return colour;
@@ -33,6 +38,9 @@ Rgba pooled(const Rgba& colour, float dense) {
     const float own = colour[k] / alpha;
     if (own > 0.0f && own < 1.0f) result[k] = alpha * powerOf(own, dense);
   }
+  const float now = luminanceOf(result), least = luminanceOf(colour) / dense;
+  if (dense > 1.0f && now > 0.0f && now < least)
+    for (int k = 0; k < 3; ++k) result[k] *= least / now;
   return result;
 }
 
@@ -100,7 +108,7 @@ class EdgePainter {
                     const PaintedEdgeParams& front) const {
     const PixelAt at = border.inFront ? PixelAt{x, y} : beyond;
     const PixelAt rim = border.inFront ? border.own : border.other;
-    const int step = std::max(1, static_cast<int>(front.rough * 0.5f + 0.5f));
+    const int step = std::max(2, static_cast<int>(front.rough * 0.5f + 0.5f));
     constexpr float ofBorder = 1.1f, ofPixel = 0.2f;
     const float grain = ofBorder * meanGrain(rim, step) + ofPixel * in_.grain(at.x, at.y);
     return grain > -1.0f ? (grain < 1.0f ? grain : 1.0f) : -1.0f;
