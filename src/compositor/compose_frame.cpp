@@ -65,11 +65,9 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   lap(clock, "styles and tone");
   if (sink) sink->number("brush.tone", tone);
   const bool diagnostics = sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");
-  BrushResult brush =
-      paintStyles(strips, planes, ownLights ? shared : tone, styled, surfaces, diagnostics,
-                  keepsGrain(look, styled));
-  const BrushResult added =
-      paintOwnLights(look, strips, plan, planes, styled, surfaces, tones);
+  BrushResult brush = paintStyles(strips, planes, ownLights ? shared : tone, styled, surfaces,
+                                  diagnostics, keepsGrain(look, styled));
+  const BrushResult added = paintOwnLights(look, strips, plan, planes, styled, surfaces, tones);
   lap(clock, "brush");
   if (sink) {
     sink->number("brush.angle", brush.angle);

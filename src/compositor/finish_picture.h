@@ -27,10 +27,11 @@ struct FinishInput {
 };
 
 /// Multiplies strokes by the surface's colour where their style says so, tints them, adds what
-/// lights with strips of their own add, blends them where surfaces meet inside things and where things meet, lays them on the ground that
-/// output.background asks for, ends them as [edges] says, draws the outlines, and the frame's own
-/// drawn lines over all. Gives the outlines' coverage; empty where no style draws any and
-/// `outlines` is false. The brush's grain is there where keepsGrain says so.
+/// lights with strips of their own add, blends them where surfaces meet inside things and where
+/// things meet, lays them on the ground that output.background asks for, ends them as [edges] says,
+/// draws the outlines, and the frame's own drawn lines over all. Gives the outlines' coverage;
+/// empty where no style draws any and `outlines` is false. The brush's grain is there where
+/// keepsGrain says so.
 Floats finishPicture(const FinishInput& in, BrushResult& brush);
 
 /// What is doubted about a frame before anything is made of it: of its files, its pixels and its

@@ -26,7 +26,7 @@ constexpr size_t ofRanks = 40;       // a Cryptomatte that is ranked anew
 // and of painted edges the nearest borders and distances.
 constexpr size_t ofGround = 56, ofPaintedEdges = 46;
 constexpr size_t ofTint = 12;
-constexpr size_t ofOwnLights = 60;  // three pictures, a tone and an index
+constexpr size_t ofOwnLights = 60;      // three pictures, a tone and an index
 constexpr size_t ofSmoothNormals = 28;  // and the means of one width
 
 /// Whether the look or a style has passes of which `which` holds.

@@ -67,8 +67,7 @@ Floats rowsOf(View<const float> tone, float factor, View<const uint16_t> index,
   Floats rows(tone.width, tone.height);
   parallelRows(tone.height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
-      for (int x = 0; x < tone.width; ++x)
-        rows(x, y) = factor > 0.0f ? tone(x, y) * factor : 0.0f;
+      for (int x = 0; x < tone.width; ++x) rows(x, y) = factor > 0.0f ? tone(x, y) * factor : 0.0f;
   });
   adjustTone(rows, index, styled.tones);
   return rows;
@@ -89,9 +88,8 @@ void checkLightStrips(const Look& look, const FramePlan& plan) {
   const std::vector<std::string> names = lightNames(look, plan);
   for (const StyleLook& style : look.styles)
     for (const LightStrip& own : lightStripsOf(style.style))
-      if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
-            return matchesGlob(name, own.light);
-          }))
+      if (std::none_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return matchesGlob(name, own.light); }))
         throw LookError(fmt::format(
             "style.light_strips gives {} a strip, which is no light of the frame{}; there are {}",
             own.light, didYouMean(own.light, names), listNames(names)));

@@ -52,8 +52,8 @@ class StripSet {
 /// then the ground's.
 std::vector<std::string> paintedFiles(const Look& look);
 
-/// The strip or picture that output.background shows; "" where it shows none. Throws LookError where
-/// it should name one and does not.
+/// The strip or picture that output.background shows; "" where it shows none. Throws LookError
+/// where it should name one and does not.
 std::string groundFile(const Look& look);
 
 /// The space of strips that are pictures: the look's colour.strip, else sRGB.

@@ -100,8 +100,7 @@ inline constexpr Parameter aovNamesParameters[] = {
     plain<&AovNames::uv>("uv", "UV pass, for brush.ground = \"uv\""),
     plain<&AovNames::instanceRandom>("instance_random",
                                      "a number that differs from instance to instance"),
-    plain<&AovNames::emission>("emission",
-                               "what surfaces give off themselves, for tone.emission"),
+    plain<&AovNames::emission>("emission", "what surfaces give off themselves, for tone.emission"),
     choice<&AovNames::positionSpace>("position_space", vectorSpaceNames,
                                      "space of the positions; auto takes world and stops where "
                                      "they are seen to be the camera's"),

@@ -140,7 +140,7 @@ struct Sidecar {
   std::string dataLayer, beautyLayer;  ///< "" when not given
   /// Radiance of a world whose light is the same from everywhere, scene-linear; absent: not given.
   std::optional<V3d> worldRadiance;
-  std::string linesLayer;              ///< of drawn lines that lie over everything; "" for none
+  std::string linesLayer;  ///< of drawn lines that lie over everything; "" for none
   Camera camera;
   std::vector<SidecarLight> lights;
   std::vector<SidecarObject> objects;

@@ -28,8 +28,7 @@ void addLightReading(StageKey& key, const FrameLight& light) {
   const ShadowNeeds& needs = entryOf(light.method).needs;
   addNames(key, light.maskChannels);
   key.add(light.tracedChannel).add(needs.camera).add(light.readsDepthMap);
-  if (light.readsDepthMap)
-    key.add(light.depthMap->file.native()).add(light.depthMap->channel);
+  if (light.readsDepthMap) key.add(light.depthMap->file.native()).add(light.depthMap->channel);
 }
 
 bool wantsScene(const FramePlan& plan) {

@@ -54,9 +54,7 @@ class LightsOfTheirOwn : public ::testing::Test {
     // Rows lie half a texel within the strip.
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(got[k], wanted[k], 0.02f) << "channel " << k;
   }
-  static V3f even(float tone) {
-    return V3f(0.2f) + (V3f(1.0f, 0.8f, 0.6f) - V3f(0.2f)) * tone;
-  }
+  static V3f even(float tone) { return V3f(0.2f) + (V3f(1.0f, 0.8f, 0.6f) - V3f(0.2f)) * tone; }
 
   MapFrame frame;
 };
@@ -101,8 +99,9 @@ TEST_F(LightsOfTheirOwn, OnlyTheStylesThatSayItHaveIt) {
 }
 
 TEST_F(LightsOfTheirOwn, IrradianceCountsByTheLightsPart) {
-  expectNear(colourOf("tone.light = \"irradiance\"\n" + style("light_strips = [\"Rim=rim.exr\"]\n")),
-             even(keyPart) + V3f(0, 0.4f, 2) * rimPart);
+  expectNear(
+      colourOf("tone.light = \"irradiance\"\n" + style("light_strips = [\"Rim=rim.exr\"]\n")),
+      even(keyPart) + V3f(0, 0.4f, 2) * rimPart);
 }
 
 TEST_F(LightsOfTheirOwn, WrongEntriesAreRefused) {

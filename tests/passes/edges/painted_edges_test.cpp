@@ -156,6 +156,25 @@ TEST(PaintedEdges, TheRimOfADarkThingIsADeeperToneOfItAndNotBlack) {
   EXPECT_NEAR(std::log(rim.x / rim.z), 1.84375f * std::log(plum.x / plum.z), 1e-3f);
 }
 
+TEST(PaintedEdges, WhereOneThingStandsOnAnotherTheSmallerIsInFrontAllAlong) {
+  // The right thing is smaller; distances meet at the border, now one nearer and now the other, by
+  // less than they change from pixel to pixel.
+  Scene scene(2, 0.5f, 0.5f);
+  scene.params[0].rim = scene.params[1].rim = 6;
+  scene.params[0].rimStrength = scene.params[1].rimStrength = 1;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (x >= border + 8) scene.things(x, y) = 1;
+      const float apart = y % 2 ? 0.15f : -0.15f;
+      scene.distance(x, y) = 9 + 0.2f * float(x - border) + (x < border ? apart : 0.0f);
+    }
+  scene.paint();
+  for (int y = 0; y < height; ++y) {
+    EXPECT_LT(scene.r(border + 1, y), 0.4f) << "the rim lies on the smaller, row " << y;
+    EXPECT_EQ(scene.r(border - 2, y), 0.5f) << "and not on the other, row " << y;
+  }
+}
+
 TEST(PaintedEdges, DryPaintIsLeftOutInHollowsTowardsTheEdgeAlone) {
   Scene scene(0);
   scene.params[0].dry = 1;
