@@ -39,34 +39,46 @@ size_t bytesOf(const FramePlanes& planes) {
 
 }  // namespace
 
-LivePicture LiveFrame::compose(const Look& look, StripShelf& shelf, int size,
-                               std::stop_token stop) {
+LivePicture LiveFrame::compose(const Look& look, StripShelf& shelf, int size, std::stop_token stop,
+                               int coarser) {
   StageRun run{std::move(stop)};
   LivePicture picture;
   picture.look = std::make_shared<const Look>(look);
   FramePlan plan = planFrame(look, path_, frame_, view_);
   StageKey reading;
   addReading(reading, look, plan);
-  const Made<FramePlanes> planes =
-      planes_.at(run, "read", std::move(reading), [&] { return readFramePlanes(plan); });
-  bytes_ = bytesOf(*planes);
+  const Made<FramePlanes> planes = planes_.at(run, "read", std::move(reading), [&] {
+    proxies_.clear();  // what they hold is of the frame before
+    return readFramePlanes(plan);
+  });
   picture.colour = shelf.colourOf(look, run);
   const Made<StripSet> strips = shelf.stripsOf(look, picture.colour, run);
-  picture.step = size > 0 ? proxyStep(planes->width, planes->height, size) : 1;
-  if (picture.step == 1) {
-    picture.stages = whole_.compose(inRenderedPixels(look), strips, plan, planes, run);
-    picture.plan = std::make_shared<const FramePlan>(std::move(plan));
-  } else {
-    StageKey sampling;
-    sampling.add(planes.version).add(picture.step);
-    const Made<FramePlanes> samples = samples_.at(
-        run, "sample", std::move(sampling), [&] { return sampleFrame(*planes, picture.step); });
-    plan = samplePlan(std::move(plan), picture.step);
-    picture.stages = proxy_.compose(sampleLook(look, picture.step), strips, plan, samples, run);
-    picture.plan = std::make_shared<const FramePlan>(std::move(plan));
-  }
+  if (size > 0) picture.step = coarser * proxyStep(planes->width, planes->height, size);
+  compose(picture, strips, std::move(plan), planes, run);
   picture.made = std::move(run.made);
   return picture;
+}
+
+void LiveFrame::compose(LivePicture& picture, const Made<StripSet>& strips, FramePlan plan,
+                        const Made<FramePlanes>& planes, StageRun& run) {
+  const int step = picture.step;
+  if (step == 1) {
+    picture.stages = whole_.compose(inRenderedPixels(*picture.look), strips, plan, planes, run);
+  } else {
+    Proxy& proxy = proxies_[step];
+    StageKey sampling;
+    sampling.add(planes.version);
+    const Made<FramePlanes> samples = proxy.samples.at(run, "sample", std::move(sampling),
+                                                       [&] { return sampleFrame(*planes, step); });
+    plan = samplePlan(std::move(plan), step);
+    picture.stages =
+        proxy.stages.compose(sampleLook(*picture.look, step), strips, plan, samples, run);
+  }
+  picture.plan = std::make_shared<const FramePlan>(std::move(plan));
+  const size_t whole = bytesOf(*planes);
+  bytes_ = whole;
+  for (const auto& [each, proxy] : proxies_)
+    bytes_ += whole / (static_cast<size_t>(each) * static_cast<size_t>(each));
 }
 
 }  // namespace kagefude

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 
 #include "live/frame_stages.h"
 #include "live/strip_shelf.h"
@@ -23,10 +24,12 @@ class LiveFrame {
   LiveFrame(std::filesystem::path path, int frame, std::string view = "")
       : path_(std::move(path)), frame_(frame), view_(std::move(view)) {}
 
-  /// The frame under a look, sampled so that its longer side is at most `size` pixels; 0: whole.
-  /// Files that changed on disk are read again. Throws as planFrame, readFramePlanes and
+  /// The frame under a look, sampled so that its longer side is at most `size` pixels, and of those
+  /// samples every `coarser`-th (1: all) in both ways; size 0: whole. Each step keeps its own
+  /// stages. Files that changed on disk are read again. Throws as planFrame, readFramePlanes and
   /// composeFrame do, and Superseded when `stop` is asked for; what was made until then is kept.
-  LivePicture compose(const Look& look, StripShelf& shelf, int size, std::stop_token stop = {});
+  LivePicture compose(const Look& look, StripShelf& shelf, int size, std::stop_token stop = {},
+                      int coarser = 1);
 
   /// What its planes and stages take, about; 0 before the first picture. Its casters not counted.
   size_t bytes() const { return bytes_; }
@@ -35,11 +38,20 @@ class LiveFrame {
   int frame() const { return frame_; }
 
  private:
+  struct Proxy {
+    Stage<FramePlanes> samples;
+    FrameStages stages;
+  };
+
+  void compose(LivePicture& picture, const Made<StripSet>& strips, FramePlan plan,
+               const Made<FramePlanes>& planes, StageRun& run);
+
   std::filesystem::path path_;
   int frame_;
   std::string view_;
-  Stage<FramePlanes> planes_, samples_;
-  FrameStages whole_, proxy_;
+  Stage<FramePlanes> planes_;
+  FrameStages whole_;
+  std::map<int, Proxy> proxies_;  ///< by step
   size_t bytes_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 #include "base/error.h"
@@ -30,6 +31,32 @@ EntriesOnDisk entriesOf(const Look& look) {
                                          fmt::join(style.style.material, ", ")));
   for (const LightLook& light : look.lights) entries.lights.push_back(light.light.name);
   return entries;
+}
+
+/// The names of those overrides that are in one list alone, each once, in alphabetical order.
+std::string namesOfDifferent(const std::vector<std::string>& before,
+                             const std::vector<std::string>& now) {
+  const std::set<std::string> a(before.begin(), before.end()), b(now.begin(), now.end());
+  std::set<std::string> names;
+  for (const auto* list : {&a, &b})
+    for (const std::string& text : *list)
+      if (!a.contains(text) || !b.contains(text)) names.insert(text.substr(0, text.find('=')));
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+/// A light that moves is traced anew, which takes seconds at full size.
+bool movesLight(const std::string& turned) {
+  return turned.find("].position") != std::string::npos ||
+         turned.find("].direction") != std::string::npos;
+}
+constexpr int coarserOfLights = 4;
+
+/// Whether something was made for it that a turn of the knob would not make again.
+bool madeFirst(const LivePicture& picture) {
+  const auto has = [&](const char* stage) {
+    return std::find(picture.made.begin(), picture.made.end(), stage) != picture.made.end();
+  };
+  return has("read") || has("sample") || has("colour");
 }
 
 }  // namespace
@@ -89,6 +116,8 @@ void LiveSession::run() {
   std::unique_lock lock(mutex_);
   for (Work work; (work = waitForWork(lock)) != Work::end;) {
     if (waiting_) {
+      turned_ = namesOfDifferent(now_.overrides, waiting_->overrides);
+      prepared_.clear();
       now_ = *std::exchange(waiting_, std::nullopt);
       nowChange_ = changes_;
     }
@@ -110,7 +139,7 @@ LiveSession::Work LiveSession::waitForWork(std::unique_lock<std::mutex>& lock) {
     const bool same = filesNow() == files_;
     lock.lock();
     if (!same && !waiting_) waiting_ = now_;
-    if (!waiting_ && !ended_ && frameToPrepare()) return Work::prepare;
+    if (!waiting_ && !ended_ && (proxyToPrepare() || frameToPrepare())) return Work::prepare;
   }
   return ended_ ? Work::end : Work::answer;
 }
@@ -162,16 +191,40 @@ std::optional<size_t> LiveSession::frameToPrepare() const {
   return std::nullopt;
 }
 
-/// Makes a frame that may be looked at next. What is wrong with it is said when it is.
+/// The coarsest first, which a hand that moves a light wants.
+std::optional<int> LiveSession::proxyToPrepare() const {
+  if (!sharp_ || frames_.empty()) return std::nullopt;
+  for (auto coarser = proxies_.rbegin(); coarser != proxies_.rend(); ++coarser)
+    if (!prepared_.contains(*coarser)) return *coarser;
+  return std::nullopt;
+}
+
+/// Makes what may be looked at next. What is wrong with it is said when it is.
 void LiveSession::prepare() {
-  const size_t input = *frameToPrepare();
-  const LiveInput& source = settings_.inputs[input];
-  auto frame = std::make_unique<LiveFrame>(source.path, source.frame, source.view);
   std::stop_token stop;
   {
     const std::lock_guard lock(mutex_);
     stop = sharpening_.get_token();
   }
+  if (const std::optional<int> coarser = proxyToPrepare())
+    prepareProxy(*coarser, stop);
+  else
+    prepareFrame(*frameToPrepare(), stop);
+}
+
+/// The stages before those that a knob turns are made while the hand rests.
+void LiveSession::prepareProxy(int coarser, const std::stop_token& stop) {
+  prepared_.insert(coarser);
+  try {
+    const Look look = readAsked(now_.overrides).asked;
+    frames_.front().second->compose(look, shelf_, settings_.size, stop, coarser);
+  } catch (const std::exception&) {  // also Superseded: what was made until then is kept
+  }
+}
+
+void LiveSession::prepareFrame(size_t input, const std::stop_token& stop) {
+  const LiveInput& source = settings_.inputs[input];
+  auto frame = std::make_unique<LiveFrame>(source.path, source.frame, source.view);
   try {
     frame->compose(readAsked(now_.overrides).asked, shelf_, settings_.size, stop);
   } catch (const Superseded&) {  // what was made until then is kept
@@ -181,6 +234,29 @@ void LiveSession::prepare() {
   }
   frames_.emplace_back(input, std::move(frame));
   letFramesGo();
+}
+
+/// Every how many samples in both ways are shown of what is turned now.
+int LiveSession::coarserNow() const {
+  const auto known = coarser_.find(turned_);
+  return known != coarser_.end() ? known->second : movesLight(turned_) ? coarserOfLights : 1;
+}
+
+/// Learns from a picture of every `coarser`-th sample (0: the whole frame) that took so long.
+void LiveSession::keepPace(const LivePicture& picture, int coarser, Milliseconds took) {
+  constexpr int coarsest = 8;
+  if (picture.plan->hasCasters) proxies_.insert(coarserOfLights);
+  if (madeFirst(picture)) return;
+  if (coarser == 0) {
+    if (took <= settings_.pace) coarser_[turned_] = 1;
+    return;
+  }
+  // Half as many samples in both ways take about a quarter. The fewer there are, the longer may
+  // they take, for those that are left out cost the eye something as well.
+  if (coarser > 1 && 4 * took <= settings_.pace * (coarser / 2)) coarser /= 2;
+  for (; took > settings_.pace * coarser && coarser < coarsest; took /= 4) coarser *= 2;
+  coarser_[turned_] = coarser;
+  if (coarser > 1) proxies_.insert(coarser);
 }
 
 void LiveSession::answer(bool whole) {
@@ -200,8 +276,11 @@ void LiveSession::answer(bool whole) {
       const std::lock_guard lock(mutex_);
       if (whole) stop = sharpening_.get_token();
     }
+    const auto start = std::chrono::steady_clock::now();
+    const int coarser = coarserNow();
     made.picture = std::make_shared<const LivePicture>(
-        frameOf(now_.input).compose(look, shelf_, whole ? 0 : settings_.size, stop));
+        frameOf(now_.input).compose(look, shelf_, whole ? 0 : settings_.size, stop, coarser));
+    keepPace(*made.picture, whole ? 0 : coarser, std::chrono::steady_clock::now() - start);
     sharp_ = made.picture->step == 1;
     letFramesGo();
   } catch (const Superseded&) {

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -55,10 +56,11 @@ struct LiveView {
 /// A look on some frames, composed in a thread of its own whenever the page or a file changes.
 /// There is no queue: of changes that wait only the last is kept. A picture that was begun at the
 /// viewer's size is finished, so that a hand that never rests sees every picture that there is time
-/// for; sharpening to full size begins when nothing has changed for `rest`, and gives way to the
-/// next change between two stages. Files (look, strips, frame) are looked at four times a second
-/// while nothing else is done, which also sees changes on network drives. All functions may be
-/// called from any thread.
+/// for. What is turned and takes longer than `pace` is shown by every 2nd, 4th or 8th of its pixels
+/// in both ways, which is learnt for each knob as it is turned. Sharpening to full size begins when
+/// nothing has changed for `rest`, and gives way to the next change between two stages. Files
+/// (look, strips, frame) are looked at four times a second while nothing else is done, which also
+/// sees changes on network drives. All functions may be called from any thread.
 class LiveSession {
  public:
   struct Settings {
@@ -69,6 +71,9 @@ class LiveSession {
     /// quarter of what the machine has. Frames beside it are made in advance as far as they fit.
     size_t memory = 0;
     std::chrono::milliseconds rest{200};
+    /// What making a picture may take while the hand moves: where it takes longer, fewer pixels are
+    /// shown until the hand rests. One of every n-th pixel may take n times as long.
+    std::chrono::milliseconds pace{40};
     std::chrono::milliseconds watch{250};
   };
 
@@ -104,12 +109,18 @@ class LiveSession {
 
  private:
   enum class Work { answer, sharpen, prepare, end };
+  using Milliseconds = std::chrono::duration<double, std::milli>;
 
   void run();
   Work waitForWork(std::unique_lock<std::mutex>& lock);
   void answer(bool whole);
   void prepare();
+  void prepareFrame(size_t input, const std::stop_token& stop);
+  void prepareProxy(int coarser, const std::stop_token& stop);
   std::optional<size_t> frameToPrepare() const;
+  std::optional<int> proxyToPrepare() const;
+  int coarserNow() const;
+  void keepPace(const LivePicture& picture, int coarser, Milliseconds took);
   LiveFrame& frameOf(size_t input);
   void letFramesGo();
   StageKey filesNow() const;
@@ -128,6 +139,10 @@ class LiveSession {
   LiveChange now_;
   uint64_t nowChange_ = 0;
   bool sharp_ = true;
+  std::string turned_;                  ///< the overrides by which the last change differs
+  std::map<std::string, int> coarser_;  ///< by what is turned, every how many samples keep the pace
+  std::set<int> proxies_{2};            ///< of these steps the stages are kept up to date,
+  std::set<int> prepared_;              ///< and of these they are
   StageKey files_;
   std::vector<std::filesystem::path> strips_;
   StripShelf shelf_;

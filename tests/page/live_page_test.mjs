@@ -86,12 +86,18 @@ const shown = () => page.evaluate(async () => {
   return hash;
 });
 
-/** Waits until what the canvas shows `fits`, and is so twice in a row. */
+/** Whether all pixels are shown, as they are when the hand rests. */
+const isSharp = () => page.evaluate(() => {
+  const { textContent } = document.getElementById('status');
+  return textContent.includes('×') && !textContent.includes('every');
+});
+
+/** Waits until what the canvas shows `fits`, is sharp, and is so twice in a row. */
 async function shownWhere(fits, what) {
   let last = null;
   for (let i = 0; i < 200; ++i) {
     const now = await shown();
-    if (now === last && fits(now)) return now;
+    if (now === last && fits(now) && await isSharp()) return now;
     last = now;
     await page.waitForTimeout(50);
   }
@@ -100,6 +106,7 @@ async function shownWhere(fits, what) {
 
 /** Where an object is on the canvas: in the middle of a run of its pixels. */
 async function placeOf(object) {
+  await shownWhere(() => true, 'a picture');
   const [width, height] = (await page.textContent('#status')).match(/\d+/g).map(Number);
   const found = await page.evaluate(async ([name, width, height]) => {
     const objectAt = async (x, y) => (await (await fetch(`probe?x=${x}&y=${y}`)).json()).object;

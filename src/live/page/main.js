@@ -257,7 +257,7 @@ const pictures = new Pictures(() => ({ stage, ...viewing() }), (now, pixels) => 
     const scale = now.values.look.output.scale; // of the stages, which are not yet scaled down
     perShown = now.painted[0] / now.size[0];
     viewer.show(pixels, now.painted.map((side) => (side * now.step) / scale));
-    at('canvas').dispatchEvent(new CustomEvent('drawn', { detail: now.change }));
+    at('canvas').dispatchEvent(new CustomEvent('drawn', { detail: { change: now.change, step: now.step } }));
   }
   if (!now.values) return complain(now.error);
   const gone = now.error || saving ? [] : history.renumber(now.onDisk);
