@@ -86,13 +86,15 @@ bool paintsOwnLights(const Look& look, const FramePlan& plan) {
 
 void checkLightStrips(const Look& look, const FramePlan& plan) {
   const std::vector<std::string> names = lightNames(look, plan);
-  for (const StyleLook& style : look.styles)
+  for (const StyleLook& style : look.styles) {
+    checkLightStrips(style.style);
     for (const LightStrip& own : lightStripsOf(style.style))
       if (std::none_of(names.begin(), names.end(),
                        [&](const std::string& name) { return matchesGlob(name, own.light); }))
         throw LookError(fmt::format(
             "style.light_strips gives {} a strip, which is no light of the frame{}; there are {}",
             own.light, didYouMean(own.light, names), listNames(names)));
+  }
 }
 
 OwnLights::OwnLights(const Look& look, const StripSet& strips, const FramePlan& plan)

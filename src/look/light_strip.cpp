@@ -19,12 +19,11 @@ std::vector<LightStrip> lightStripsOf(const StyleParams& style) {
   return strips;
 }
 
-void checkLightStrips(const StyleParams& style, const std::string& place) {
+void checkLightStrips(const StyleParams& style) {
   for (const std::string& entry : style.lightStrips)
     if (entry.find('=') == std::string::npos || entry.front() == '=')
       throw LookError(fmt::format(
-          "{}: style.light_strips wants LIGHT=STRIP, such as Rim=strips/rim.png, not {}", place,
-          entry));
+          "style.light_strips wants LIGHT=STRIP, such as Rim=strips/rim.png, not {}", entry));
 }
 
 std::string stripOfLight(const Look& look, const StyleParams& style, const std::string& light) {

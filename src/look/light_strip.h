@@ -17,8 +17,8 @@ struct LightStrip {
 LightStrip lightStripFrom(const std::string& entry);
 std::vector<LightStrip> lightStripsOf(const StyleParams& style);
 
-/// Throws LookError that begins with `place` where an entry lacks its light or its "=".
-void checkLightStrips(const StyleParams& style, const std::string& place);
+/// Throws LookError where an entry lacks its light or its "=".
+void checkLightStrips(const StyleParams& style);
 
 /// The strip of its own that a light is painted with on a style's surfaces: of the style's entries
 /// the first that fits its name, else the strip of the last [[light]] that does; "" for none.

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/plain_file.h"
-#include "look/light_strip.h"
 #include "look/override.h"
 #include "look/parse_toml.h"
 #include "look/read_section.h"
@@ -141,7 +140,6 @@ void readStyles(const toml::table& root, Look& look) {
     const size_t numbers = style.style.reference.size();
     if (numbers != 0 && numbers != 3)
       throw LookError(fmt::format("{}: style.reference wants three numbers", placeOf(*section)));
-    checkLightStrips(style.style, placeOf(*section));
     readSections(*section, nested, Scope::style, style);
     look.styles.push_back(std::move(style));
   }

@@ -35,7 +35,7 @@ void paintOil(StripPaintParams& p) {
 constexpr PresetKey oilKeys[] = {
     {"brush", "contrast", "1.15", 0, "thick paint: strokes stand out"},
     {"smooth", "h", "", 0.006f, "edges of shadows are as soft as the brush"},
-    {"edges", "rough", "", 0.0018f, "strokes end where the bristles do, not on the outline"},
+    {"edges", "rough", "", 0.0014f, "strokes end where the bristles do, not on the outline"},
     {"edges", "lost", "", 0.015f, "edges melt where both sides are equally bright"},
 };
 
