@@ -158,6 +158,16 @@ void Colour::toDisplay(View<float> red, View<float> green, View<float> blue,
   state_->apply(make, red, green, blue);
 }
 
+bool Colour::mixesChannels(std::string_view display, std::string_view view) const {
+  const auto [shownOn, seenAs] = shownThrough(display, view);
+  return state_
+      ->processor([&, &shownOn = shownOn, &seenAs = seenAs] {
+        return state_->config->getProcessor(ocio::ROLE_SCENE_LINEAR, shownOn.c_str(),
+                                            seenAs.c_str(), ocio::TRANSFORM_DIR_FORWARD);
+      })
+      ->hasChannelCrosstalk();
+}
+
 std::string Colour::displaySpace(std::string_view display, std::string_view view) const {
   const auto [shownOn, seenAs] = shownThrough(display, view);
   const std::string space =

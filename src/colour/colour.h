@@ -38,6 +38,9 @@ class Colour {
   void toDisplay(View<float> red, View<float> green, View<float> blue,
                  std::string_view display = {}, std::string_view view = {}) const;
 
+  /// Whether a channel of what toDisplay gives depends on the other two. Throws as toDisplay.
+  bool mixesChannels(std::string_view display = {}, std::string_view view = {}) const;
+
   /// The space of what toDisplay gives, as the configuration names it.
   std::string displaySpace(std::string_view display = {}, std::string_view view = {}) const;
 

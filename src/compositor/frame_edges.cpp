@@ -19,18 +19,20 @@ namespace {
 /// Each pixel's own thing in the Cryptomatte's ids.
 Labels ownCryptomatteIds(const FramePlan& plan, View<const uint32_t> objects) {
   Labels ids(objects.width, objects.height);
-  std::unordered_map<uint32_t, uint32_t> known{{0u, 0u}};
-  uint32_t last = 0, lastId = 0;
-  for (size_t i = 0; i < objects.pixels(); ++i) {
-    const uint32_t object = objects.data[i];
-    if (object != last) {
-      const auto [found, isNew] = known.try_emplace(object, 0);
-      if (isNew) found->second = plan.cryptomatteIdOf(object);
-      last = object;
-      lastId = found->second;
+  parallelRows(objects.height, [&](int first, int end) {
+    std::unordered_map<uint32_t, uint32_t> known{{0u, 0u}};
+    uint32_t last = 0, lastId = 0;
+    uint32_t* id = ids.row(first);
+    for (const uint32_t* object = objects.row(first); object != objects.row(end); ++object, ++id) {
+      if (*object != last) {
+        const auto [found, isNew] = known.try_emplace(*object, 0);
+        if (isNew) found->second = plan.cryptomatteIdOf(*object);
+        last = *object;
+        lastId = found->second;
+      }
+      *id = lastId;
     }
-    ids.row(0)[i] = lastId;
-  }
+  });
   return ids;
 }
 

@@ -48,9 +48,9 @@
 // Proxies. While the hand moves, frames larger than --size are looked at through every n-th pixel:
 // data is sampled, never blended (proxy.h says why), lengths in pixels shrink with it, and the same
 // stages run on the small planes. When the hand rests, the stages of full size run in the
-// background, between two of which they give way to a new change. Full size is not a zoomed proxy:
-// it is the same functions on the frame's own planes, with the look's own lengths, hence equal to
-// `comp`.
+// background, between two of which they give way to a new change; the longer they will take, the
+// longer must the hand rest (0.2 to 1 s). Full size is not a zoomed proxy: it is the same functions
+// on the frame's own planes, with the look's own lengths, hence equal to `comp`.
 //
 // Pace. A knob that takes longer than the hand waits (LiveSession::Settings::pace, 40 ms of making,
 // which leaves a third of 60 ms to the browser) shows every 2nd, 4th or 8th of those samples in

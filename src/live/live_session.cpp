@@ -133,7 +133,7 @@ void LiveSession::run() {
 
 LiveSession::Work LiveSession::waitForWork(std::unique_lock<std::mutex>& lock) {
   const auto wanted = [this] { return ended_ || waiting_; };
-  if (!sharp_ && !changed_.wait_for(lock, settings_.rest, wanted)) return Work::sharpen;
+  if (!sharp_ && !changed_.wait_for(lock, rest_, wanted)) return Work::sharpen;
   while (!changed_.wait_for(lock, settings_.watch, wanted)) {
     lock.unlock();
     const bool same = filesNow() == files_;
@@ -245,6 +245,8 @@ int LiveSession::coarserNow() const {
 /// Learns from a picture of every `coarser`-th sample (0: the whole frame) that took so long.
 void LiveSession::keepPace(const LivePicture& picture, int coarser, Milliseconds took) {
   constexpr int coarsest = 8;
+  rest_ = std::clamp(took * coarser * coarser, Milliseconds(settings_.rest),
+                     Milliseconds(5 * settings_.rest));
   if (picture.plan->hasCasters) proxies_.insert(coarserOfLights);
   if (madeFirst(picture)) return;
   if (coarser == 0) {

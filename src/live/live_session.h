@@ -70,6 +70,8 @@ class LiveSession {
     /// Bytes of frames that stay in memory (LiveFrame::bytes), the one that is seen always; 0: a
     /// quarter of what the machine has. Frames beside it are made in advance as far as they fit.
     size_t memory = 0;
+    /// How long nothing changes before a picture is sharpened; up to five times as long where that
+    /// will take longer, for a pass that was begun is not left.
     std::chrono::milliseconds rest{200};
     /// What making a picture may take while the hand moves: where it takes longer, fewer pixels are
     /// shown until the hand rests. One of every n-th pixel may take n times as long.
@@ -139,6 +141,7 @@ class LiveSession {
   LiveChange now_;
   uint64_t nowChange_ = 0;
   bool sharp_ = true;
+  Milliseconds rest_{0};                ///< how long the hand rests before the picture is sharpened
   std::string turned_;                  ///< the overrides by which the last change differs
   std::map<std::string, int> coarser_;  ///< by what is turned, every how many samples keep the pace
   std::set<int> proxies_{2};            ///< of these steps the stages are kept up to date,

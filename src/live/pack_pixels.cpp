@@ -1,6 +1,11 @@
 #include "live/pack_pixels.h"
 
+#include <fmt/ranges.h>
+
 #include <cstdint>
+#include <vector>
+
+#include "image/parallel.h"
 
 namespace kagefude {
 namespace {
@@ -20,7 +25,8 @@ int difference(uint8_t a, uint8_t b) { return static_cast<int8_t>(static_cast<ui
 
 class Packer {
  public:
-  explicit Packer(size_t pixels) : bytes_(4 * pixels, '\0') {}
+  /// `last` is the pixel before the first.
+  Packer(size_t pixels, Rgb last) : bytes_(4 * pixels, '\0'), last_(last) {}
 
   void add(Rgb pixel) {
     if (pixel == last_) {
@@ -70,11 +76,22 @@ class Packer {
 }  // namespace
 
 std::string packPixels(const ShownPixels& pixels) {
-  const size_t count = pixels.bytes.size() / 4;
-  Packer packer(count);
-  const auto byte = [&](size_t i) { return static_cast<uint8_t>(pixels.bytes[i]); };
-  for (size_t i = 0; i < 4 * count; i += 4) packer.add({byte(i), byte(i + 1), byte(i + 2)});
-  return packer.taken();
+  const auto at = [&](size_t i) {
+    const auto byte = [&](size_t k) { return static_cast<uint8_t>(pixels.bytes[4 * i + k]); };
+    return Rgb{byte(0), byte(1), byte(2)};
+  };
+  // Bands of rows, each of which needs of the one before its last pixel alone.
+  constexpr int rows = 32;
+  std::vector<std::string> bands(static_cast<size_t>((pixels.height + rows - 1) / rows));
+  parallelRows(pixels.height, rows, [&](int first, int end) {
+    const auto width = static_cast<size_t>(pixels.width);
+    const size_t begin = static_cast<size_t>(first) * width,
+                 last = static_cast<size_t>(end) * width;
+    Packer packer(last - begin, begin > 0 ? at(begin - 1) : Rgb{});
+    for (size_t i = begin; i < last; ++i) packer.add(at(i));
+    bands[static_cast<size_t>(first / rows)] = packer.taken();
+  });
+  return fmt::format("{}", fmt::join(bands, ""));
 }
 
 }  // namespace kagefude

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "colour/display_bytes.h"
 #include "compositor/stage_colours.h"
 #include "image/parallel.h"
 
@@ -20,11 +20,16 @@ char byteOf(float value) {
       static_cast<unsigned char>(value > 0.0f ? std::min(value, 1.0f) * 255.0f + 0.5f : 0.0f));
 }
 
+ShownPixels sized(int width, int height) {
+  ShownPixels shown{width, height, {}};
+  shown.bytes.resize(size_t{4} * static_cast<size_t>(width) * static_cast<size_t>(height));
+  return shown;
+}
+
 /// `colour(x, y)` is what the display shows.
 template <class PixelColour>
 ShownPixels drawn(int width, int height, const PixelColour& colour) {
-  ShownPixels shown{width, height, {}};
-  shown.bytes.resize(size_t{4} * static_cast<size_t>(width) * static_cast<size_t>(height));
+  ShownPixels shown = sized(width, height);
   parallelRows(height, [&](int first, int end) {
     for (int y = first; y < end; ++y) {
       char* out =
@@ -88,17 +93,13 @@ std::vector<NamedStage> stagesOf(const LivePicture& picture, const Viewing& view
 
 ShownPixels showColours(const LivePicture& picture, const Vec3View& colour,
                         const Viewing& viewing) {
-  Vec3Plane shown(colour.width(), colour.height());
-  const float gain = std::exp2(viewing.exposure);
-  parallelRows(colour.height(), [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < colour.width(); ++x) shown.set(x, y, colour(x, y) * gain);
-  });
   const ColourParams& spaces = picture.look->colour;
   const bool own = !viewing.display.empty();
-  picture.colour->toDisplay(shown.x, shown.y, shown.z, own ? viewing.display : spaces.display,
-                            own ? viewing.view : spaces.view);
-  return drawn(colour.width(), colour.height(), [&](int x, int y) { return shown.view()(x, y); });
+  ShownPixels shown = sized(colour.width(), colour.height());
+  displayBytes(*picture.colour, colour.x, colour.y, colour.z, viewing.exposure,
+               own ? viewing.display : spaces.display, own ? viewing.view : spaces.view,
+               shown.bytes.data());
+  return shown;
 }
 
 ShownPixels showPainted(View<const float> red, View<const float> green, View<const float> blue) {

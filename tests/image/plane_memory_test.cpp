@@ -42,6 +42,17 @@ TEST(PlaneMemory, ALargePlanesMemoryGoesToTheNextOfItsSize) {
   EXPECT_NE(other.row(0), first);
 }
 
+TEST(PlaneMemory, SoDoesThatOfAPlaneAsLargeAsASmallFrames) {
+  releaseKeptPlaneMemory();
+  const uint8_t* first = nullptr;
+  {
+    const Bytes plane(1024, 576), beside(1024, 700);
+    first = plane.row(0);
+  }
+  const Bytes other(1024, 700), same(1024, 576);
+  EXPECT_EQ(same.row(0), first);
+}
+
 TEST(PlaneMemory, WhatIsKeptNeverAddsToTheMostThatWasUsed) {
   releaseKeptPlaneMemory();
   const size_t before = residentBytes();

@@ -230,7 +230,7 @@ TEST_F(Session, ThePageIsAnsweredOrRefusedInWords) {
   for (const char* path :
        {"/", "/main.js", "/link.js", "/viewer.js", "/knobs.js", "/history.js", "/strips.js",
         "/own_entry.js", "/light_drag.js", "/unpack.js", "/control.js", "/easel.js",
-        "/strip_drop.js", "/style.css", "/tables", "/strips", "/paint"})
+        "/strip_drop.js", "/stops.js", "/style.css", "/tables", "/strips", "/paint"})
     EXPECT_EQ(ask("GET", path, ""), 200) << path;
   for (const char* path : {"/look.toml", "/main.js/", "/page/main.js", ""})
     EXPECT_EQ(ask("GET", path, ""), 404) << path;

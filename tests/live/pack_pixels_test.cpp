@@ -74,6 +74,15 @@ TEST(PackPixels, RunsOfEveryLength) {
   }
 }
 
+TEST(PackPixels, RowsThatArePackedApartJoin) {
+  for (const int step : {0, 1, 12, 127}) {
+    ShownPixels pixels = randomWalk(step, 4);
+    pixels.width = 50;  // 100 rows
+    pixels.height = 100;
+    expectSame(pixels);
+  }
+}
+
 TEST(PackPixels, ByHand) {
   // From black: nothing, one more of each, green by 10 with red 7 more and blue 8 less, a far
   // colour.

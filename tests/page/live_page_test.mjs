@@ -64,9 +64,11 @@ beforeEach(async () => {
     if (!request.url().startsWith('http://127.0.0.1:') && !request.url().startsWith('data:'))
       strange.push(request.url());
   });
+  await page.addInitScript(watchChanges);
   await page.goto(address);
   // An earlier test's values are let go, and the file as it is now has been read.
-  await page.evaluate(() => fetch('change', { method: 'POST', body: '{"overrides":[]}' }));
+  await page.evaluate(async () =>
+    (await fetch('change', { method: 'POST', body: '{"overrides":[]}' })).json());
   await page.waitForFunction(async () => {
     const bytes = await (await fetch('picture?seen=0')).arrayBuffer();
     const length = new DataView(bytes).getUint32(0, true);
@@ -86,18 +88,34 @@ const shown = () => page.evaluate(async () => {
   return hash;
 });
 
-/** Whether all pixels are shown, as they are when the hand rests. */
-const isSharp = () => page.evaluate(() => {
-  const { textContent } = document.getElementById('status');
-  return textContent.includes('×') && !textContent.includes('every');
-});
+/** Runs in the page: counts the changes that are on their way, and keeps what was drawn last. */
+function watchChanges() {
+  Object.assign(window, { asking: 0, lastChange: 0, drawn: {} });
+  addEventListener('drawn', ({ detail }) => (window.drawn = detail), { capture: true });
+  const plain = window.fetch;
+  window.fetch = async (where, ...rest) => {
+    if (where !== 'change') return plain(where, ...rest);
+    ++window.asking;
+    const response = await plain(where, ...rest);
+    const { change } = await response.clone().json().catch(() => ({}));
+    setTimeout(() => { // what waits in the page is on its way then
+      window.lastChange = change ?? window.lastChange;
+      --window.asking;
+    }, 50);
+    return response;
+  };
+}
 
-/** Waits until what the canvas shows `fits`, is sharp, and is so twice in a row. */
+/** Whether the last change is shown with all its pixels, as it is when the hand rests. */
+const isSettled = () => page.evaluate(() =>
+  window.asking === 0 && window.drawn.step === 1 && window.drawn.change >= window.lastChange);
+
+/** Waits until what the canvas shows `fits`, has settled, and is so twice in a row. */
 async function shownWhere(fits, what) {
   let last = null;
   for (let i = 0; i < 200; ++i) {
     const now = await shown();
-    if (now === last && fits(now) && await isSharp()) return now;
+    if (now === last && fits(now) && await isSettled()) return now;
     last = now;
     await page.waitForTimeout(50);
   }
@@ -312,15 +330,28 @@ test('a strip is painted in the page', async () => {
   await page.fill('#paint-bands + input', '3');
   await page.press('#paint-bands + input', 'Tab');
   await wait((now) => now !== soft);
-  await page.fill('#paint-stops', '0, 0.1, 0, 0.3, 1, 1, 0.9, 0.2');
+  await page.fill('#paint-stops', '0, 0.1, 0, 0.3, 1, 1, 0, 0.2');
   await page.press('#paint-stops', 'Tab');
+  const dark = page.getByLabel('colour 1', { exact: true });
+  assert.equal(await dark.inputValue(), '#1a004d');
+  await page.getByLabel('colour 2', { exact: true }).fill('#ffe633');
+  const numbers = () => page.inputValue('#paint-stops');
+  assert.equal(await numbers(), '0, 0.1, 0, 0.3, 1, 1, 0.902, 0.2');
+  const track = await page.locator('.easel .track').boundingBox();
+  await page.mouse.click(track.x + track.width / 2, track.y + 5);
+  assert.match(await numbers(), /^0, 0\.1, 0, 0\.3, 0\.(49|5)\d*, 0\.5\d*, 0\.4\d+, 0\.2\d+, 1, 1, 0\.902, 0\.2$/);
+  await page.getByLabel('place of colour 2').fill('0.75');
+  assert.match(await numbers(), /^0, 0\.1, 0, 0\.3, 0\.75, /);
+  await picture('stops.png');
+  await page.getByLabel('remove colour 2').click();
+  assert.equal(await numbers(), '0, 0.1, 0, 0.3, 1, 1, 0.902, 0.2');
   await page.fill('.easel .name', 'mine.png');
   await page.click('text=keep and use');
   await shownWhere((now) => now !== first, 'the vase in the painted strip');
   assert.equal(await knob('style[0].strip').inputValue(), 'strips/mine.png');
   await picture('painted_strip.png');
   const made = paintedFile('same.png', 'width=512', 'height=512', 'bands=3',
-    'stops=[0,0.1,0,0.3, 1,1,0.9,0.2]');
+    'stops=[0,0.1,0,0.3, 1,1,0.902,0.2]');
   assert.deepEqual(readFileSync(join(folder, 'strips/mine.png')), made);
   rmSync(join(folder, 'strips'), { recursive: true });
 });

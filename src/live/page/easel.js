@@ -1,6 +1,7 @@
 // A strip painted in the page, with the knobs of `strip make`.
 import { control, element } from './control.js';
 import { keepPainted, paintKnobs, painted } from './link.js';
+import { stopsControl } from './stops.js';
 import { keep } from './strip_drop.js';
 
 /** Shows the strip of the newest settings; what was turned meanwhile is painted next, not all of it. */
@@ -46,7 +47,8 @@ export async function easel(kept) {
     settings: [...settings].map(([name, value]) => `${name}=${JSON.stringify(value)}`) });
 
   const knobs = table.parameters.map((parameter) => {
-    const { parts, write } = control(parameter, (value) => {
+    const made = parameter.name === 'stops' ? stopsControl : control;
+    const { parts, write } = made(parameter, (value) => {
       settings.set(parameter.name, value);
       preview.show(recipe());
     });

@@ -141,11 +141,15 @@ void applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
 
 BrushResult cloneColours(const BrushResult& strokes) {
   BrushResult copy;
-  copy.r = strokes.r.clone();
-  copy.g = strokes.g.clone();
-  copy.b = strokes.b.clone();
-  copy.a = strokes.a.clone();
-  if (!strokes.grain.empty()) copy.grain = strokes.grain.clone();
+  for (Floats BrushResult::*const plane :
+       {&BrushResult::r, &BrushResult::g, &BrushResult::b, &BrushResult::a, &BrushResult::grain}) {
+    const Floats& from = strokes.*plane;
+    if (from.empty()) continue;
+    Floats& to = copy.*plane = Floats(from.width(), from.height());
+    parallelRows(from.height(), [&](int first, int end) {
+      std::copy(from.row(first), from.row(end), to.row(first));
+    });
+  }
   return copy;
 }
 

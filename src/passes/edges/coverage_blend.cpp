@@ -1,5 +1,7 @@
 #include "passes/edges/coverage_blend.h"
 
+#include <algorithm>
+
 #include "image/parallel.h"
 #include "passes/strip/strip.h"
 
@@ -17,12 +19,16 @@ bool lentColour(const ColourViews& colour, View<const uint32_t> ownId, int x, in
                 int radius, Rgba& result) {
   Rgba sum{};
   int count = 0;
-  for (int qy = y - radius; qy <= y + radius; ++qy)
-    for (int qx = x - radius; qx <= x + radius; ++qx)
-      if (ownId.contains(qx, qy) && ownId(qx, qy) == id) {
+  const int left = std::max(x - radius, 0), right = std::min(x + radius, ownId.width - 1);
+  const int top = std::max(y - radius, 0), bottom = std::min(y + radius, ownId.height - 1);
+  for (int qy = top; qy <= bottom; ++qy) {
+    const uint32_t* const ids = ownId.row(qy);
+    for (int qx = left; qx <= right; ++qx)
+      if (ids[qx] == id) {
         sum += colourAt(colour, qx, qy);
         ++count;
       }
+  }
   if (count == 0) return false;
   result = sum / static_cast<float>(count);
   return true;
@@ -50,6 +56,10 @@ Rgba blended(const ColourViews& colour, View<const uint32_t> ownId,
   return sum * ((named < 1.0f ? named : 1.0f) / found);
 }
 
+void copyRow(View<const float> from, int y, Floats& to) {
+  std::copy_n(from.row(y), from.width, to.row(y));
+}
+
 }  // namespace
 
 ColourPlanes blendByCoverage(const ColourViews& colour, View<const uint32_t> ownId,
@@ -58,16 +68,25 @@ ColourPlanes blendByCoverage(const ColourViews& colour, View<const uint32_t> own
   ColourPlanes result{Floats(width, height), Floats(width, height), Floats(width, height),
                       Floats(width, height)};
   parallelRows(height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
+    for (int y = first; y < end; ++y) {
+      // Most pixels show one thing and stay as they are.
+      copyRow(colour.r, y, result.r);
+      copyRow(colour.g, y, result.g);
+      copyRow(colour.b, y, result.b);
+      copyRow(colour.a, y, result.a);
+      if (ranks.empty()) continue;
+      const uint32_t* const own = ownId.row(y);
+      const uint32_t* const id = ranks[0].id.row(y);
+      const float* const share = ranks[0].coverage.row(y);
       for (int x = 0; x < width; ++x) {
-        const bool plain = ranks.empty() || (ranks[0].coverage(x, y) >= fullShare &&
-                                             ranks[0].id(x, y) == ownId(x, y));
-        const Rgba c = plain ? colourAt(colour, x, y) : blended(colour, ownId, ranks, x, y);
+        if (share[x] >= fullShare && id[x] == own[x]) continue;
+        const Rgba c = blended(colour, ownId, ranks, x, y);
         result.r(x, y) = c[0];
         result.g(x, y) = c[1];
         result.b(x, y) = c[2];
         result.a(x, y) = c[3];
       }
+    }
   });
   return result;
 }
