@@ -59,6 +59,9 @@ class EdgePainter {
     const PaintedEdgeParams& own = borders_.paramsAt({x, y});
     const PaintedEdgeParams& other = borders_.paramsAt(border.other);
     const PaintedEdgeParams& front = border.inFront ? own : other;
+    const float gap = border.inFront ? dryShare(own, border.distance, x, y) : 0.0f;
+    if (border.distance > changedWithin(front) + (border.inFront ? own.rim : 0.0f))
+      return leaveOut(gap, x, y, paint);
     const PixelAt beyond = borders_.mirrored(x, y, border);
     const float grain = borderGrain(x, y, border, beyond, front);
     const float melted = front.lost > 0.0f ? lostShare(border, front) : 0.0f;
@@ -67,7 +70,6 @@ class EdgePainter {
     const float shift = front.rough * (grain + front.overrun);
     const float inside = border.distance + (border.inFront ? shift : -shift);
     const float rimOwn = border.inFront ? rimDensity(own, inside, melted, grain) : 1.0f;
-    const float gap = border.inFront ? dryShare(own, border.distance, x, y) : 0.0f;
     if (!moves && rimOwn == 1.0f && gap == 0.0f) return;
 
     Rgba colour{paint.r(x, y), paint.g(x, y), paint.b(x, y), paint.a(x, y)};
@@ -93,6 +95,18 @@ class EdgePainter {
   }
 
  private:
+  /// How far from the border its paint may be mixed with that beyond it.
+  static float changedWithin(const PaintedEdgeParams& p) {
+    return p.rough * (1.075f + std::fabs(p.overrun)) + 0.5f * p.lost + 1.0f;
+  }
+
+  /// All that is left to do further away.
+  static void leaveOut(float gap, int x, int y, const PaintViews& paint) {
+    if (gap == 0.0f) return;
+    for (const View<float>* plane : {&paint.r, &paint.g, &paint.b, &paint.a})
+      (*plane)(x, y) *= 1.0f - gap;
+  }
+
   static float reachOf(const PaintedEdgeParams& p) {
     const float moved = p.rough * (1.0f + std::fabs(p.overrun)) + 0.5f * p.lost + 2.0f;
     return std::max(moved + p.rim, p.dry > 0.0f ? p.dryWidth : 0.0f);
