@@ -5,8 +5,8 @@ import os
 
 import bpy
 
-from . import camera_view, exr_header, export_notes, export_scenes, frame_image, mask_materials
-from . import shot, sidecar, survey, unseen, whole_shot
+from . import camera_view, exr_header, export_notes, export_scenes, frame_image, light_emission
+from . import mask_materials, shot, sidecar, survey, unseen, whole_shot
 from .casters import CasterFiles
 from .errors import ExportError
 from .light_depth import LightDepth, plan_view
@@ -44,7 +44,9 @@ class ExportJob:
         unseen.hide_indirect(view_layer)
         self.unpainted = unseen.unpainted_objects(view_layer)
         notes += export_scenes.prepare_beauty(scene, view_layer, options)
-        self.data = export_scenes.DataScene(scene, subjects)
+        glow = any(material.use_nodes and light_emission.emits(material.node_tree)
+                   for material in self.materials)
+        self.data = export_scenes.DataScene(scene, subjects, glow)
         backends = MaskBackends(options.masks_by, self.data, shot.all_geometry())
         self.rigs = self._rigs(lights, backends)
         self.data.add_rest(shot.all_geometry())
@@ -130,6 +132,9 @@ class ExportJob:
                 light_view, name, exr_header.channel_names(part)[0], self.options.depth_size)
             yield
         document = self._document(frame, view, [entry for _, entry in placed], entries)
+        world = light_emission.world_radiance(bpy.context.evaluated_depsgraph_get().scene_eval.world)
+        if world is not None:
+            document["world"] = {"radiance": list(world)}
         if self.casters:
             document["casters"] = self.casters.write(bpy.context.evaluated_depsgraph_get(),
                                                        self.unique, self.fogs)

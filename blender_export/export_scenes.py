@@ -123,10 +123,11 @@ def plain_material():
     return material
 
 
-def enable_data_passes(view_layer):
+def enable_data_passes(view_layer, emission):
     for name in ("normal", "position", "z", "object_index", "material_index", "uv", "vector",
                  "diffuse_color"):
         setattr(view_layer, "use_pass_" + name, True)
+    view_layer.use_pass_emit = emission
 
 
 @dataclass
@@ -146,15 +147,15 @@ class DataScene:
     use the same random numbers in every pixel, which would show in them.
     """
 
-    def __init__(self, artist_scene, subjects):
+    def __init__(self, artist_scene, subjects, emission=False):
         self.scene = exact_scene(artist_scene, "data")
         self.subjects = link_collection(self.scene, "subjects", subjects)
-        self.material = plain_material()
+        self.material, self.emission = plain_material(), emission
         self.layers = {}      # layer name -> Reading
         self._artist_scene, self._sampled = artist_scene, None
         data = replace_view_layers(self.scene, "data")
         data.samples = 1
-        enable_data_passes(data)
+        enable_data_passes(data, emission)
         self._lamps = {data.name: []}
         self._sight, self._sight_layer, self._sight_names = None, data.name, []
         self._group_layer = None

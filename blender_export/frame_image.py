@@ -27,7 +27,7 @@ def shot_writer(beauty_scene, beauty_layer, data, middle_masks):
     # others keep: the beauty goes first, so that the depth maps find the data scene's geometry.
     beauty = writer.source(beauty_scene, beauty_layer.name)
     node = writer.source(data.scene, "data")
-    for name in DATA_PASSES:
+    for name in DATA_PASSES + (("Emit",) if data.emission else ()):
         writer.add_pass(node, name, f"data.{name}")
     notes = _add_beauty(writer, beauty)
     for layer, reading in data.layers.items():

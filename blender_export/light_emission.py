@@ -35,6 +35,48 @@ def node_emission(data):
         return Emission(0.0, (1.0, 1.0, 1.0))
     if shader.bl_idname != 'ShaderNodeEmission':
         return Emission(1.0, (1.0, 1.0, 1.0), shader.name)
+    return _shader_emission(shader)
+
+
+def world_radiance(world):
+    """Radiance of an evaluated world that is the same from everywhere; None where it is not known to
+    be: only one Background is followed."""
+    if world is None:
+        return (0.0, 0.0, 0.0)
+    if not world.use_nodes or world.node_tree is None:
+        return tuple(world.color)
+    output = world.node_tree.get_output_node('CYCLES')
+    if output is None or not output.inputs["Surface"].is_linked:
+        return (0.0, 0.0, 0.0)
+    shader = _source(output.inputs["Surface"])[0]
+    if shader is None or shader.mute:
+        return (0.0, 0.0, 0.0)
+    if shader.bl_idname != 'ShaderNodeBackground':
+        return None
+    found = _shader_emission(shader)
+    return None if found.unknown else tuple(found.strength * value for value in found.color)
+
+
+def emits(tree):
+    """Whether any shader of a material's nodes may give off light."""
+    if tree is None:
+        return False
+    for node in tree.nodes:
+        if node.mute:
+            continue
+        if node.bl_idname == 'ShaderNodeEmission' or (
+                node.bl_idname == 'ShaderNodeGroup' and emits(node.node_tree)):
+            return True
+        strength = node.inputs.get("Emission Strength")
+        # Until 4.0 the colour was called otherwise.
+        color = node.inputs.get("Emission Color") or node.inputs.get("Emission")
+        if strength and color and (strength.is_linked or strength.default_value > 0.0) and (
+                color.is_linked or max(tuple(color.default_value)[:3]) > 0.0):
+            return True
+    return False
+
+
+def _shader_emission(shader):
     unknown = []
     strength = _value(shader.inputs["Strength"], unknown)
     color = _value(shader.inputs["Color"], unknown)

@@ -64,7 +64,8 @@ bool isTried(const std::string& name, const LookUse& use) {
   }
   const std::vector<bool>& fitting = entry->list == "style" ? use.styles : use.lights;
   if (entry->index < fitting.size() && !fitting[entry->index]) return false;
-  for (const char* key : {"object", "material", "index", "name", "strip"})
+  if (entry->list == "style" && entry->key == "strip") return false;
+  for (const char* key : {"object", "material", "index", "name"})
     if (entry->key == key) return false;
   return true;
 }

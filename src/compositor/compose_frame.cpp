@@ -7,6 +7,7 @@
 #include "compositor/frame_tint.h"
 #include "compositor/frame_tone.h"
 #include "compositor/output_layers.h"
+#include "compositor/own_lights.h"
 #include "compositor/paint_styles.h"
 #include "compositor/scale_down.h"
 #include "compositor/styled_surfaces.h"
@@ -48,16 +49,25 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   if (sink) showInputs(planes, surfaces, *sink);
   Vec3Plane light;
   Vec3Plane* const wantedLight = lightsTint(look) ? &light : nullptr;
-  Floats tone = frameTone(look, plan, planes, surfaces, result, sink, clock, wantedLight);
+  std::vector<Floats> perLight;
+  std::vector<Floats>* const wantedTones = paintsOwnLights(look, plan) ? &perLight : nullptr;
+  Floats tone =
+      frameTone(look, plan, planes, surfaces, result, sink, clock, wantedLight, wantedTones);
 
   const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
   result.fittingStyles = styled.fitting;
-  adjustTone(tone, styled.anchorIndex, styled.tones);
+  const std::vector<View<const float>> tones(perLight.begin(), perLight.end());
+  const bool ownLights = !styled.ownLights.empty();
+  Floats shared = ownLights ? sharedTone(look, plan, styled, tones) : Floats();
+  const ToneFloor floor = toneFloor(look, plan, planes);
+  levelTone(floor, styled, tone);
+  if (ownLights) levelTone(floor, styled, shared);
   lap(clock, "styles and tone");
   if (sink) sink->number("brush.tone", tone);
   const bool diagnostics = sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");
-  BrushResult brush =
-      paintStyles(strips, planes, tone, styled, surfaces, diagnostics, keepsGrain(look, styled));
+  BrushResult brush = paintStyles(strips, planes, ownLights ? shared : tone, styled, surfaces,
+                                  diagnostics, keepsGrain(look, styled));
+  const BrushResult added = paintOwnLights(look, strips, plan, planes, styled, surfaces, tones);
   lap(clock, "brush");
   if (sink) {
     sink->number("brush.angle", brush.angle);
@@ -65,6 +75,7 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   }
   FinishInput finish{look, strips, plan, planes, styled, tone, joins};
   finish.lightColour = wantedLight;
+  finish.ownLights = &added;
   finish.outlines = asksFor(look, "outline");
   Floats outline = finishPicture(finish, brush);
   lap(clock, "edges and outlines");

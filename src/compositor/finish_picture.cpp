@@ -5,6 +5,7 @@
 #include "compositor/frame_edges.h"
 #include "compositor/frame_ground.h"
 #include "compositor/frame_tint.h"
+#include "compositor/own_lights.h"
 #include "image/parallel.h"
 #include "passes/ground/paper_deposit.h"
 
@@ -79,6 +80,7 @@ Floats finishPicture(const FinishInput& in, BrushResult& brush) {
   const FramePlanes& planes = in.planes;
   multiplyAlbedo(planes, in.styled, brush);
   tintPaint(in.styled, in.tone, in.lightColour, brush);
+  if (in.ownLights) addOwnLights(*in.ownLights, brush);
   if (in.look.output.edges == Edges::coverage) blendInside(planes, in.styled, in.joins, brush);
   if (usesGround(in.look, in.styled)) {
     layOnGround(in, brush);

@@ -22,14 +22,16 @@ struct FinishInput {
   View<const float> tone;                  ///< that the strokes were picked by
   View<const uint8_t> joins;               ///< of its surfaces
   const Vec3Plane* lightColour = nullptr;  ///< see the function; null: lights do not tint
+  const BrushResult* ownLights = nullptr;  ///< what paintOwnLights gave; null: nothing
   bool outlines = false;  ///< whether the lines' coverage is wanted where no style draws any
 };
 
-/// Multiplies strokes by the surface's colour where their style says so, tints them, blends them
-/// where surfaces meet inside things and where things meet, lays them on the ground that
-/// output.background asks for, ends them as [edges] says, draws the outlines, and the frame's own
-/// drawn lines over all. Gives the outlines' coverage; empty where no style draws any and
-/// `outlines` is false. The brush's grain is there where keepsGrain says so.
+/// Multiplies strokes by the surface's colour where their style says so, tints them, adds what
+/// lights with strips of their own add, blends them where surfaces meet inside things and where
+/// things meet, lays them on the ground that output.background asks for, ends them as [edges] says,
+/// draws the outlines, and the frame's own drawn lines over all. Gives the outlines' coverage;
+/// empty where no style draws any and `outlines` is false. The brush's grain is there where
+/// keepsGrain says so.
 Floats finishPicture(const FinishInput& in, BrushResult& brush);
 
 /// What is doubted about a frame before anything is made of it: of its files, its pixels and its

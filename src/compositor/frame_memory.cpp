@@ -6,6 +6,7 @@
 #include <map>
 
 #include "compositor/output_layers.h"
+#include "compositor/own_lights.h"
 
 namespace kagefude {
 namespace {
@@ -25,6 +26,7 @@ constexpr size_t ofRanks = 40;       // a Cryptomatte that is ranked anew
 // and of painted edges the nearest borders and distances.
 constexpr size_t ofGround = 56, ofPaintedEdges = 46;
 constexpr size_t ofTint = 12;
+constexpr size_t ofOwnLights = 60;      // three pictures, a tone and an index
 constexpr size_t ofSmoothNormals = 28;  // and the means of one width
 
 /// Whether the look or a style has passes of which `which` holds.
@@ -129,12 +131,13 @@ size_t frameMemory(const Look& look, const FramePlan& plan,
   if (plan.uv) floats += 4 * 2;
   if (plan.uv && !plan.rest) floats += 4 * 3;
   if (plan.instanceRandom) floats += 4;
+  if (plan.emission) floats += 4 * 3;
   if (plan.beauty) floats += 4 * 4;
   if (!plan.lines.empty()) floats += 4 * 4;
   const size_t ids = plan.materialId ? 2 * ofIds : ofIds;
   const size_t layers = layerBytes(look, plan.lights);
   const size_t edges = plan.coverage ? ofEdgeRanks : 0;
-  const size_t tones = 4 * plan.lights.size();
+  const size_t tones = 4 * plan.lights.size() + (paintsOwnLights(look, plan) ? ofOwnLights : 0);
   const size_t input = inputBytes(plan);
   const size_t passed = look.output.passthrough ? input : 0;
 

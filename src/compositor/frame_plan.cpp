@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "compositor/casting_scene.h"
 #include "compositor/output_layers.h"
+#include "compositor/own_lights.h"
 #include "compositor/position_pass.h"
 #include "compositor/scale_down.h"
 #include "frame/cryptomatte.h"
@@ -174,10 +175,32 @@ bool leadMayChange(const Look& look, const FramePlan& plan) {
   return !allChosen && leads[1] > 0.5f * leads[0];
 }
 
-bool endsPaint(const Look& look) {
-  return look.passes.edges.acts() ||
+/// Whether the look as a whole, or a style, has passes of which `which` holds.
+template <class Which>
+bool anyPasses(const Look& look, const Which& which) {
+  return which(look.passes) ||
          std::any_of(look.styles.begin(), look.styles.end(),
-                     [](const StyleLook& style) { return style.passes.edges.acts(); });
+                     [&](const StyleLook& style) { return which(style.passes); });
+}
+
+bool endsPaint(const Look& look) {
+  return anyPasses(look, [](const PassParams& passes) { return passes.edges.acts(); });
+}
+
+/// What shines without the lights, where a tone asks for it.
+void planFloor(const Look& look, const AovNames& names, FramePlan& plan) {
+  if (anyPasses(look, [](const PassParams& passes) { return passes.tone.emission > 0.0f; }))
+    plan.emission = requireAov(plan.image, names, AovKind::emission);
+  if (!anyPasses(look, [](const PassParams& passes) { return passes.tone.world > 0.0f; })) return;
+  const std::vector<float>& own = look.scene.world;
+  if (!own.empty())
+    plan.worldRadiance = V3f(own[0], own[1], own[2]);
+  else if (plan.sidecar && plan.sidecar->worldRadiance)
+    plan.worldRadiance = V3f(*plan.sidecar->worldRadiance);
+  else
+    plan.warnings.push_back(
+        "tone.world is set, but neither the JSON nor scene.world says how bright the world is, so "
+        "it lifts nothing");
 }
 
 /// What is fixed to the world wants to know where the camera looks.
@@ -264,6 +287,8 @@ FramePlan planOpenFrame(const Look& asked, ImageFile image, std::optional<Sideca
   plan.hasCasters = plan.sidecar && !plan.sidecar->casters.empty();
   plan.lights = gatherLights(look, plan.sidecar ? &*plan.sidecar : nullptr, plan.image, frame,
                              plan.hasCasters);
+  planFloor(look, names, plan);
+  checkLightStrips(look, plan);
   if (leadMayChange(look, plan))
     plan.warnings.push_back(
         "the JSON says nothing of the whole shot, so the light that is heaviest in each frame "

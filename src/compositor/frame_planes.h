@@ -33,6 +33,7 @@ struct FramePlanes {
   Vec3Plane albedo;
   Vec3Plane beauty;
   Floats alpha;
+  Floats emission;  ///< luminance of what surfaces give off themselves
   Vec3Plane lines;  ///< drawn lines that lie over everything, associated, and their alpha
   Floats linesAlpha;
   Floats depth;                                 ///< only for outlines where no camera is known

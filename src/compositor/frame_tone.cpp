@@ -8,9 +8,11 @@
 #include "compositor/light_visibility.h"
 #include "compositor/output_layers.h"
 #include "image/parallel.h"
+#include "image/real_math.h"
 #include "passes/tone/lambert.h"
 #include "passes/tone/light_reach.h"
 #include "passes/tone/merge.h"
+#include "passes/tone/tint.h"
 
 namespace kagefude {
 namespace {
@@ -39,11 +41,15 @@ float whiteOf(const std::vector<FrameLight>& lights, MergeParams::Lights merge,
   return white;
 }
 
-/// By what each light's tone counts. Lights that all shine away from the subject are measured on
-/// their axes; where no light gives anything, nothing does.
+/// Lights that all shine away from the subject are measured on their axes.
+float whiteOf(const std::vector<FrameLight>& lights, const Look& look) {
+  const float white = whiteOf(lights, look.passes.merge.lights, &LightWeight::subject);
+  return white > 0 ? white : whiteOf(lights, look.passes.merge.lights, &LightWeight::axis);
+}
+
+/// By what each light's tone counts; where no light gives anything, nothing does.
 std::vector<float> weightsOf(const std::vector<FrameLight>& lights, const Look& look) {
-  float white = whiteOf(lights, look.passes.merge.lights, &LightWeight::subject);
-  if (!(white > 0)) white = whiteOf(lights, look.passes.merge.lights, &LightWeight::axis);
+  const float white = whiteOf(lights, look);
   std::vector<float> weights;
   for (const FrameLight& light : lights) {
     const bool irradiance = look.passes.tone.light == ToneLight::irradiance;
@@ -86,6 +92,28 @@ std::vector<float> toneWeights(const Look& look, const std::vector<FrameLight>& 
   return weightsOf(lights, look);
 }
 
+std::vector<LightPart> lightParts(const Look& look, const std::vector<FrameLight>& lights) {
+  const std::vector<float> weights = weightsOf(lights, look);
+  std::vector<LightPart> parts;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const LightWeight& weight = lights[i].weight;
+    if (look.passes.tone.light == ToneLight::shade) {
+      parts.push_back({weights[i], 1.0f});
+      continue;
+    }
+    const float own = weight.subject > 0 ? weight.subject : weight.axis;
+    parts.push_back(own > 0 ? LightPart{weights[i] * own, 1.0f / own} : LightPart{});
+  }
+  return parts;
+}
+
+ToneFloor toneFloor(const Look& look, const FramePlan& plan, const FramePlanes& planes) {
+  const float white = whiteOf(plan.lights, look);
+  if (!(white > 0)) return {};
+  // A radiance L from everywhere arrives as pi L; a white surface in irradiance E shines as E / pi.
+  return {pi * luminanceOf(plan.worldRadiance) / white, planes.emission, pi / white};
+}
+
 bool oneToneIsAll(const Look& look, const std::vector<FrameLight>& lights) {
   return lights.size() == 1 && look.passes.tone.light == ToneLight::shade &&
          weightsOf(lights, look)[0] == 1.0f;
@@ -100,7 +128,7 @@ Floats sumTones(const Look& look, const std::vector<FrameLight>& lights,
 
 Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& planes,
                  View<const uint32_t> surfaces, FrameResult& result, StageSink* sink,
-                 StageClock* clock, Vec3Plane* colour) {
+                 StageClock* clock, Vec3Plane* colour, std::vector<Floats>* perLight) {
   std::vector<Floats> tones;
   for (size_t i = 0; i < plan.lights.size(); ++i) {
     const FrameLight& light = plan.lights[i];
@@ -116,8 +144,13 @@ Floats frameTone(const Look& look, const FramePlan& plan, const FramePlanes& pla
   }
   if (colour)
     *colour = lightColour(plan, {tones.begin(), tones.end()}, toneWeights(look, plan.lights));
-  if (oneToneIsAll(look, plan.lights)) return std::move(tones.front());
-  return sumTones(look, plan.lights, {tones.begin(), tones.end()});
+  Floats all;
+  if (!oneToneIsAll(look, plan.lights))
+    all = sumTones(look, plan.lights, {tones.begin(), tones.end()});
+  else
+    all = perLight ? tones.front().clone() : std::move(tones.front());
+  if (perLight) *perLight = std::move(tones);
+  return all;
 }
 
 }  // namespace kagefude

@@ -34,28 +34,44 @@ Plane<uint16_t> onlyGroup(View<const uint16_t> index, const std::vector<size_t>&
   return own;
 }
 
-}  // namespace
+/// What of strokes is wanted beside their colour.
+struct Wanted {
+  bool diagnostics = false, grain = false;
+};
 
-BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<const float> tone,
-                        const StyledSurfaces& styled, View<const uint32_t> surfaces,
-                        bool diagnostics, bool grain) {
+BrushResult lay(const StripSet& strips, const FramePlanes& planes, const StrokeLayer& layer,
+                const StyledSurfaces& styled, View<const uint32_t> surfaces, const Wanted& wanted) {
   BrushResult result;
   const Vec3Plane smooth = strokeNormals(planes, styled, surfaces);
   const Vec3View normals = smooth.empty() ? planes.normal.view() : smooth.view();
   const auto paint = [&](View<const uint16_t> index, BrushParams params, bool keepOthers) {
-    params.diagnostics = diagnostics;
-    params.keepsGrain = grain;
-    applyBrush(planes.position, normals, tone, index, styled.anchors, strips.strips(), params,
+    params.diagnostics = wanted.diagnostics;
+    params.keepsGrain = wanted.grain;
+    applyBrush(planes.position, normals, layer.tone, index, layer.anchors, strips.strips(), params,
                result, keepOthers, styled.rest);
   };
   const std::vector<size_t> groups = groupsOf(styled.brushes);
   const bool oneGroup = std::all_of(groups.begin(), groups.end(), [](size_t g) { return g == 0; });
   if (oneGroup)
-    paint(styled.anchorIndex, styled.brushes.empty() ? BrushParams{} : styled.brushes[0], false);
+    paint(layer.index, styled.brushes.empty() ? BrushParams{} : styled.brushes[0], false);
   else
     for (size_t i = 0; i < groups.size(); ++i)
-      if (groups[i] == i) paint(onlyGroup(styled.anchorIndex, groups, i), styled.brushes[i], i > 0);
+      if (groups[i] == i) paint(onlyGroup(layer.index, groups, i), styled.brushes[i], i > 0);
   return result;
+}
+
+}  // namespace
+
+BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<const float> tone,
+                        const StyledSurfaces& styled, View<const uint32_t> surfaces,
+                        bool diagnostics, bool grain) {
+  return lay(strips, planes, {styled.anchorIndex, styled.anchors, tone}, styled, surfaces,
+             {diagnostics, grain});
+}
+
+BrushResult paintLayer(const StripSet& strips, const FramePlanes& planes, const StrokeLayer& layer,
+                       const StyledSurfaces& styled, View<const uint32_t> surfaces) {
+  return lay(strips, planes, layer, styled, surfaces, {});
 }
 
 }  // namespace kagefude

@@ -14,4 +14,13 @@ BrushResult paintStyles(const StripSet& strips, const FramePlanes& planes, View<
                         const StyledSurfaces& styled, View<const uint32_t> surfaces,
                         bool diagnostics, bool grain);
 
+/// Strokes by other anchors and tones than those of the styles, whose brushes they keep.
+struct StrokeLayer {
+  View<const uint16_t> index;  ///< as StyledSurfaces::anchorIndex
+  const std::vector<BrushAnchor>& anchors;
+  View<const float> tone;
+};
+BrushResult paintLayer(const StripSet& strips, const FramePlanes& planes, const StrokeLayer& layer,
+                       const StyledSurfaces& styled, View<const uint32_t> surfaces);
+
 }  // namespace kagefude

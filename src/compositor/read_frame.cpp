@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/error.h"
@@ -18,6 +19,7 @@
 #include "frame/rebuild_positions.h"
 #include "frame/sanitise.h"
 #include "image/parallel.h"
+#include "passes/tone/tint.h"
 
 namespace kagefude {
 namespace {
@@ -65,6 +67,19 @@ Bytes toMask(View<const float> values) {
       for (int x = 0; x < values.width; ++x) mask(x, y) = values(x, y) >= 0.5f ? 1 : 0;
   });
   return mask;
+}
+
+/// Of colours that are not finite 0.
+Floats luminancesOf(const Vec3Plane& colour) {
+  Floats result(colour.x.width(), colour.x.height());
+  parallelRows(result.height(), [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < result.width(); ++x) {
+        const float luminance = luminanceOf(colour.view()(x, y));
+        result(x, y) = std::isfinite(luminance) ? luminance : 0.0f;
+      }
+  });
+  return result;
 }
 
 Floats readDepthMap(const DepthMapSource& source) {
@@ -182,6 +197,8 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   }
   if (plan.instanceRandom)
     reader.floats(plan.instanceRandom->channels.at(0), planes.instanceRandom);
+  Vec3Plane emission;
+  if (plan.emission) requestVector(reader, *plan.emission, emission);
   if (plan.beauty) {
     requestVector(reader, *plan.beauty, planes.beauty);
     if (plan.beauty->channels.size() > 3) reader.floats(plan.beauty->channels[3], planes.alpha);
@@ -236,6 +253,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   if (plan.rest) markWithoutRest(restAlpha, planes.rest);
   convertToWorld(plan.spaces, plan.image, planes.position, planes.normal);
   clearOutside(plan, planes);
+  if (plan.emission) planes.emission = luminancesOf(emission);
   planes.badBeauty = clearNonFiniteColour(planes.beauty, planes.alpha.view());
   planes.badAlbedo = clearNonFiniteColour(planes.albedo);
   planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);

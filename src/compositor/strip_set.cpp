@@ -11,6 +11,7 @@
 #include "base/nearest_name.h"
 #include "image/parallel.h"
 #include "image/real_math.h"
+#include "look/light_strip.h"
 #include "passes/strip/strip_paint.h"
 #include "picture/strip_file.h"
 
@@ -83,7 +84,8 @@ void associate(StripPicture& picture, bool divide) {
 }
 
 /// From the space that the file names, which the configuration may know by that name.
-void namedToWorking(const Colour& colour, const std::string& file, StripPicture& picture) {
+void namedToWorking(const Colour& colour, const std::string& file, std::string_view what,
+                    StripPicture& picture) {
   const std::string& space = picture.space;
   if (space.empty() || space == "sRGB")
     return paintedToWorking(colour, picture.red, picture.green, picture.blue);
@@ -92,23 +94,27 @@ void namedToWorking(const Colour& colour, const std::string& file, StripPicture&
   const auto decode = knownDecoding(space);
   if (!decode)
     throw InputError(fmt::format(
-        "strip {} says that its colours are {}, which the colour configuration {} has no space "
+        "{} {} says that its colours are {}, which the colour configuration {} has no space "
         "for; say with colour.strip what they are",
-        file, space, colour.source()));
+        what, file, space, colour.source()));
   for (Floats* plane : {&picture.red, &picture.green, &picture.blue})
     for (size_t i = 0; i < plane->view().pixels(); ++i) plane->row(0)[i] = decode(plane->row(0)[i]);
 }
 
-/// Transforms want the colour apart from its alpha; the painting wants it multiplied.
+/// Transforms want the colour apart from its alpha; the painting wants it multiplied. The picture
+/// behind things is held as a strip is, but called by its key.
 Strip loadStrip(const Look& look, const Colour& colour, const std::string& name) {
   if (isBuiltinStrip(name)) return loadBuiltin(colour, name.substr(builtinPrefix.size()));
-  StripPicture picture = readStrip(look.resolve(name));
+  const bool behind =
+      look.output.background == Background::picture && name == look.passes.ground.picture;
+  const std::string_view what = behind ? "ground.picture" : "strip";
+  StripPicture picture = readStrip(look.resolve(name), what);
   const bool transformed = !picture.sceneLinear || !look.colour.strip.empty();
   if (picture.associated && transformed) associate(picture, true);
   if (!look.colour.strip.empty())
     colour.toWorking(picture.red, picture.green, picture.blue, look.colour.strip);
   else if (!picture.sceneLinear)
-    namedToWorking(colour, look.resolve(name).string(), picture);
+    namedToWorking(colour, look.resolve(name).string(), what, picture);
   if (!picture.hasAlpha) return makeStrip(picture.red, picture.green, picture.blue);
   if (transformed || !picture.associated) associate(picture, false);
   return makeStrip(picture.red, picture.green, picture.blue, picture.alpha);
@@ -132,24 +138,32 @@ std::string stripColourSpace(const Look& look) {
 
 bool isBuiltinStrip(const std::string& name) { return name.starts_with(builtinPrefix); }
 
-bool multipliesColour(const StyleParams& style) {
-  if (style.colour == StripColour::automatic) return style.strip == "builtin:neutral";
+bool multipliesColour(const StyleParams& style, const std::string& strip) {
+  if (style.colour == StripColour::automatic) return strip == "builtin:neutral";
   return style.colour == StripColour::multiply;
 }
 
 std::vector<std::string> paintedFiles(const Look& look) {
   std::vector<std::string> names;
   for (const StyleLook& style : look.styles) names.push_back(style.style.strip);
-  const GroundParams& ground = look.passes.ground;
-  if (look.output.background == Background::strip) names.push_back(ground.strip);
-  if (look.output.background == Background::picture) {
-    if (ground.picture.empty())
-      throw LookError(
-          "output.background = \"picture\" shows the file that ground.picture names, "
-          "which is empty");
-    names.push_back(ground.picture);
-  }
+  for (const StyleLook& style : look.styles)
+    for (const LightStrip& own : lightStripsOf(style.style))
+      if (!own.strip.empty()) names.push_back(own.strip);
+  for (const LightLook& light : look.lights)
+    if (!light.light.strip.empty()) names.push_back(light.light.strip);
+  if (std::string ground = groundFile(look); !ground.empty()) names.push_back(std::move(ground));
   return names;
+}
+
+std::string groundFile(const Look& look) {
+  const GroundParams& ground = look.passes.ground;
+  if (look.output.background == Background::strip) return ground.strip;
+  if (look.output.background != Background::picture) return {};
+  if (ground.picture.empty())
+    throw LookError(
+        "output.background = \"picture\" shows the file that ground.picture names, which is "
+        "empty");
+  return ground.picture;
 }
 
 int StripSet::indexOf(const std::string& name) const {

@@ -48,8 +48,13 @@ class StripSet {
   std::string picture_;
 };
 
-/// Names of all strips and pictures that a look paints with: each style's, then the ground's.
+/// Names of all strips and pictures that a look paints with: each style's, those of single lights,
+/// then the ground's.
 std::vector<std::string> paintedFiles(const Look& look);
+
+/// The strip or picture that output.background shows; "" where it shows none. Throws LookError
+/// where it should name one and does not.
+std::string groundFile(const Look& look);
 
 /// The space of strips that are pictures: the look's colour.strip, else sRGB.
 std::string stripColourSpace(const Look& look);
@@ -61,7 +66,7 @@ V3f toStripLinear(const Colour& colour, const V3f& working);
 /// Whether a strip's name means one that is painted by the program itself.
 bool isBuiltinStrip(const std::string& name);
 
-/// Whether a style's strip multiplies the surface's colour; `auto` does for the neutral strip.
-bool multipliesColour(const StyleParams& style);
+/// Whether a strip of a style multiplies the surface's colour; `auto` does for the neutral strip.
+bool multipliesColour(const StyleParams& style, const std::string& strip);
 
 }  // namespace kagefude

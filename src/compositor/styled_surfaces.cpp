@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/glob.h"
 #include "base/nearest_name.h"
+#include "compositor/own_lights.h"
 #include "compositor/stroke_grounds.h"
 #include "image/real_math.h"
 
@@ -280,6 +281,11 @@ PaintedEdgeParams edgesOf(PaintedEdgeParams edges, float stripPixels, float want
 
 }  // namespace
 
+void levelTone(const ToneFloor& floor, const StyledSurfaces& styled, View<float> tone) {
+  raiseTone(tone, styled.anchorIndex, styled.tones, floor);
+  adjustTone(tone, styled.anchorIndex, styled.tones);
+}
+
 bool paintsEdges(const StyledSurfaces& styled) {
   return std::any_of(styled.edges.begin(), styled.edges.end(),
                      [](const PaintedEdgeParams& edges) { return edges.acts(); });
@@ -292,6 +298,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
   StyledSurfaces result;
   const StyleLook fallback{{}, look.passes};
   std::set<std::string> unbounded;
+  OwnLights ownLights(look, strips, plan);
   StrokeGrounds grounds(plan, planes, index.plane, index.surfaces.size());
   result.fitting.resize(look.styles.size());
   for (const Surface& surface : index.surfaces)
@@ -311,10 +318,11 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     result.anchors.push_back(makeBrushAnchor(subject, light.light, brush));
     result.anchors.back().atRest = atRest;
     if (atRest) grounds.lay(number, object, subject, result.anchors.back());
+    ownLights.add(style.style, subject, result.anchors.back(), brush);
     result.styles.push_back(found ? static_cast<int>(found - look.styles.data()) : -1);
     result.brushes.push_back(style.passes.brush);
     result.tones.push_back(style.passes.tone);
-    result.multiplies.push_back(multipliesColour(style.style));
+    result.multiplies.push_back(multipliesColour(style.style, style.style.strip));
     const std::vector<float>& line = style.style.outlineColour;
     const auto colour = line.empty() ? std::nullopt : std::optional(V3f(line[0], line[1], line[2]));
     result.outlines.push_back({colour, style.passes.outline});
@@ -323,6 +331,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
         edgesOf(style.passes.edges, result.stripPixels.back(), style.passes.brush.stripPixels));
     result.tints.push_back(style.passes.tint);
   }
+  result.ownLights = ownLights.take();
   result.rest = grounds.places(planes, index.plane);
   noteUnbounded(unbounded, warnings);
   noteBlack(plan, planes, index, result.multiplies, warnings);

@@ -10,6 +10,7 @@
 #include "passes/edges/painted_edge_params.h"
 #include "passes/tone/tint.h"
 #include "passes/tone/tone.h"
+#include "passes/tone/tone_floor.h"
 
 namespace kagefude {
 
@@ -17,6 +18,14 @@ namespace kagefude {
 struct StyleOutline {
   std::optional<V3f> colour;
   OutlineParams params;
+};
+
+/// A light that strips of its own paint (light.strip, style.light_strips).
+struct OwnLight {
+  size_t light = 0;                  ///< place in the plan's lights
+  std::vector<bool> paints;          ///< per anchor; false: it counts in the style's own strip
+  std::vector<BrushAnchor> anchors;  ///< per anchor: its strip, whose strokes run round the light
+  std::vector<bool> multiplies;      ///< per anchor: the strip multiplies the surface's colour
 };
 
 /// Which strokes every pixel gets: one anchor for each pair of object and style that is seen.
@@ -32,8 +41,13 @@ struct StyledSurfaces {
   std::vector<StyleOutline> outlines;    ///< per anchor
   std::vector<PaintedEdgeParams> edges;  ///< per anchor, widths in pixels
   std::vector<TintParams> tints;         ///< per anchor
+  std::vector<OwnLight> ownLights;       ///< those that paint any anchor
   std::vector<float> stripPixels;  ///< per anchor: pixels that the strip's width covers; 0: unknown
 };
+
+/// A tone of the lights becomes that which picks rows: raised (raiseTone), then levelled
+/// (adjustTone). In place.
+void levelTone(const ToneFloor& floor, const StyledSurfaces& styled, View<float> tone);
 
 /// Whether any style's paint ends by [edges].
 bool paintsEdges(const StyledSurfaces& styled);

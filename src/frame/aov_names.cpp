@@ -34,6 +34,7 @@ constexpr std::string_view cryptoMaterials[] = {"cryptomaterial", "cryptomattema
 constexpr std::string_view rests[] = {"rest",  "restposition", "pref",  "refp",
                                       "wpref", "worldrest",    "posref"};
 constexpr std::string_view uvs[] = {"uv", "st", "texcoord"};
+constexpr std::string_view emissions[] = {"emit", "emission", "selfillumination"};
 constexpr std::string_view instanceRandoms[] = {"instancerandom", "objectrandom"};
 
 // Passes that serve no purpose here, but must be told from layers and views.
@@ -42,7 +43,6 @@ constexpr std::string_view otherPasses[] = {"mist",
                                             "denoisingnormal",
                                             "denoisingalbedo",
                                             "ao",
-                                            "emit",
                                             "env",
                                             "diffdir",
                                             "diffind",
@@ -68,7 +68,6 @@ constexpr std::string_view otherPasses[] = {"mist",
                                             "reflection",
                                             "refraction",
                                             "transmission",
-                                            "emission",
                                             "lighting",
                                             "sss",
                                             "background"};
@@ -103,6 +102,8 @@ Names namesOf(AovKind kind) {
       return uvs;
     case AovKind::instanceRandom:
       return instanceRandoms;
+    case AovKind::emission:
+      return emissions;
     case AovKind::surface:
       return {};
   }

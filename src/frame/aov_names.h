@@ -9,12 +9,12 @@
 namespace kagefude::detail {
 
 /// The kinds that have names to be found by, in the order in which they are told.
-inline constexpr std::array<AovKind, 14> searchedKinds = {
+inline constexpr std::array<AovKind, 15> searchedKinds = {
     AovKind::position,     AovKind::normal,         AovKind::depth,
     AovKind::objectIndex,  AovKind::materialIndex,  AovKind::vector,
     AovKind::albedo,       AovKind::beauty,         AovKind::shadow,
     AovKind::cryptoObject, AovKind::cryptoMaterial, AovKind::rest,
-    AovKind::uv,           AovKind::instanceRandom};
+    AovKind::uv,           AovKind::instanceRandom, AovKind::emission};
 
 /// A name as the tables know it: lower case, without "_", "-" and spaces.
 std::string plainName(std::string_view name);

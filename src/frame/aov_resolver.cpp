@@ -24,7 +24,7 @@ struct KindRow {
 };
 
 constexpr size_t any = 4096;
-constexpr std::array<KindRow, 15> kindRows = {{
+constexpr std::array<KindRow, 16> kindRows = {{
     {"Position", "position", 3, 3, &AovNames::position},
     {"Normal", "normal", 3, 3, &AovNames::normal},
     {"Depth", "depth", 1, 1, &AovNames::depth},
@@ -40,6 +40,7 @@ constexpr std::array<KindRow, 15> kindRows = {{
     {"Rest", "rest", 3, 4, &AovNames::rest},
     {"UV", "uv", 2, 2, &AovNames::uv},
     {"Instance Random", "instance_random", 1, 1, &AovNames::instanceRandom},
+    {"Emission", "emission", 3, 3, &AovNames::emission},
 }};
 
 const KindRow& rowOf(AovKind kind) { return kindRows[static_cast<size_t>(kind)]; }

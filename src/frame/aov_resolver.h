@@ -25,7 +25,8 @@ enum class AovKind {
   surface,
   rest,
   uv,
-  instanceRandom
+  instanceRandom,
+  emission
 };
 
 /// How a pass of vectors is to be read: `automatic` is world space, and doubted where the
@@ -56,6 +57,7 @@ struct AovNames {
   std::string cryptoObject, cryptoMaterial;
   std::string surface;  ///< surface ids made elsewhere; has no name of its own to be found by
   std::string rest, uv, instanceRandom;
+  std::string emission;
   RestSpace restSpace = RestSpace::automatic;
   VectorSpace positionSpace = VectorSpace::automatic;
   VectorSpace normalSpace = VectorSpace::automatic;
@@ -98,6 +100,7 @@ inline constexpr Parameter aovNamesParameters[] = {
     plain<&AovNames::uv>("uv", "UV pass, for brush.ground = \"uv\""),
     plain<&AovNames::instanceRandom>("instance_random",
                                      "a number that differs from instance to instance"),
+    plain<&AovNames::emission>("emission", "what surfaces give off themselves, for tone.emission"),
     choice<&AovNames::positionSpace>("position_space", vectorSpaceNames,
                                      "space of the positions; auto takes world and stops where "
                                      "they are seen to be the camera's"),

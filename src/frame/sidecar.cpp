@@ -214,6 +214,11 @@ void readFrame(const JsonPlace& json, Sidecar& sidecar) {
   if (json.has("pixel_aspect")) sidecar.pixelAspect = json["pixel_aspect"].number(1e-3, 1e3);
   if (json.has("scale")) sidecar.scale = json["scale"].integer(1, largestScale);
   if (json.has("shot")) sidecar.shot = readShot(json["shot"]);
+  if (json.has("world")) {
+    const JsonPlace radiance = json["world"]["radiance"];
+    for (const JsonPlace& share : radiance.list(3, 3)) share.number(0, large);
+    sidecar.worldRadiance = radiance.vector();
+  }
   if (!json.has("layers")) return;
   const JsonPlace layers = json["layers"];
   if (layers.has("data")) sidecar.dataLayer = layers["data"].text();

@@ -138,7 +138,9 @@ struct Sidecar {
   int scale = 1;  ///< how many times the shot's own resolution the image has
   std::optional<WholeShot> shot;
   std::string dataLayer, beautyLayer;  ///< "" when not given
-  std::string linesLayer;              ///< of drawn lines that lie over everything; "" for none
+  /// Radiance of a world whose light is the same from everywhere, scene-linear; absent: not given.
+  std::optional<V3d> worldRadiance;
+  std::string linesLayer;  ///< of drawn lines that lie over everything; "" for none
   Camera camera;
   std::vector<SidecarLight> lights;
   std::vector<SidecarObject> objects;

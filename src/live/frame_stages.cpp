@@ -8,6 +8,7 @@
 #include "compositor/frame_ground.h"
 #include "compositor/frame_tint.h"
 #include "compositor/frame_tone.h"
+#include "compositor/own_lights.h"
 #include "compositor/paint_styles.h"
 #include "compositor/scale_down.h"
 #include "live/stage_keys.h"
@@ -23,16 +24,18 @@ StageKey keyOf(std::initializer_list<uint64_t> versions) {
   return key;
 }
 
+std::vector<View<const float>> tonesOf(const StagedFrame& frame) {
+  std::vector<View<const float>> tones;
+  for (const LightStagesMade& light : frame.lights) tones.push_back(light.tone->view());
+  return tones;
+}
+
 FinishedPicture finish(const Look& look, const StripSet& strips, const FramePlan& plan,
                        const StagedFrame& frame) {
   BrushResult brush = cloneColours(*frame.strokes);
   FinishedPicture picture;
   Vec3Plane light;
-  if (lightsTint(look)) {
-    std::vector<View<const float>> tones;
-    for (const LightStagesMade& made : frame.lights) tones.push_back(made.tone->view());
-    light = lightColour(plan, tones, toneWeights(look, plan.lights));
-  }
+  if (lightsTint(look)) light = lightColour(plan, tonesOf(frame), toneWeights(look, plan.lights));
   FinishInput input{look,
                     strips,
                     plan,
@@ -41,6 +44,7 @@ FinishedPicture finish(const Look& look, const StripSet& strips, const FramePlan
                     *frame.tone,
                     frame.surfaces->joins};
   if (!light.empty()) input.lightColour = &light;
+  if (frame.ownLights.value) input.ownLights = frame.ownLights.value.get();
   picture.outline = finishPicture(input, brush);
   picture.frame.colour.x = std::move(brush.r);
   picture.frame.colour.y = std::move(brush.g);
@@ -103,10 +107,20 @@ Made<Floats> FrameStages::composeTone(const Look& look, const FramePlan& plan,
     key.add(frame.lights[i].tone.version);
     addWeight(key, plan.lights[i]);
   }
-  return sum_.at(run, "sum of tones", std::move(key), [&] {
-    std::vector<View<const float>> tones;
-    for (const LightStagesMade& light : frame.lights) tones.push_back(light.tone->view());
-    return sumTones(look, plan.lights, tones);
+  return sum_.at(run, "sum of tones", std::move(key),
+                 [&] { return sumTones(look, plan.lights, tonesOf(frame)); });
+}
+
+/// The tone of the lights without strips of their own. `tone` is the key of that of all.
+Made<Floats> FrameStages::composeShared(const Look& look, const FramePlan& plan,
+                                        const StagedFrame& frame, StageKey tone, StageRun& run) {
+  const StyledSurfaces& styled = frame.styles->surfaces;
+  tone.add(frame.styles.version);
+  for (const LightStagesMade& light : frame.lights) tone.add(light.tone.version);
+  return shared_.at(run, "tone of shared lights", std::move(tone), [&] {
+    Floats shared = sharedTone(look, plan, styled, tonesOf(frame));
+    levelTone(toneFloor(look, plan, *frame.planes), styled, shared);
+    return shared;
   });
 }
 
@@ -126,21 +140,37 @@ void FrameStages::paint(const Look& look, const Made<StripSet>& strips, const Fr
   const Made<Floats> sum = composeTone(look, plan, frame, run);
   StageKey tone = keyOf({sum.version, frame.planes.version});
   for (const ToneParams& own : styled.tones) tone.add(toneTable, &own);
+  const ToneFloor floor = toneFloor(look, plan, *frame.planes);
+  tone.add(floor.world).add(floor.emissionUnit);
+  const StageKey toneKey = tone;
   frame.tone = tone_.at(run, "tone", std::move(tone), [&] {
     Floats adjusted = sum->clone();
-    adjustTone(adjusted, styled.anchorIndex, styled.tones);
+    levelTone(floor, styled, adjusted);
     return adjusted;
   });
 
-  strokes.add(frame.tone.version).add(frame.surfaces.version).add(keepsGrain(look, styled));
+  Made<Floats> shared = frame.tone;
+  if (styled.ownLights.empty()) {
+    shared_ = {};
+    ownLights_ = {};
+  } else {
+    shared = composeShared(look, plan, frame, toneKey, run);
+    StageKey own = strokes;
+    own.add(shared.version).add(frame.surfaces.version).add(frame.styles.version);
+    frame.ownLights = ownLights_.at(run, "lights with strips of their own", std::move(own), [&] {
+      return paintOwnLights(look, *strips, plan, *frame.planes, styled, frame.surfaces->labels,
+                            tonesOf(frame));
+    });
+  }
+  strokes.add(shared.version).add(frame.surfaces.version).add(keepsGrain(look, styled));
   frame.strokes = strokes_.at(run, "strokes", std::move(strokes), [&] {
-    return paintStyles(*strips, *frame.planes, *frame.tone, styled, frame.surfaces->labels, false,
+    return paintStyles(*strips, *frame.planes, *shared, styled, frame.surfaces->labels, false,
                        keepsGrain(look, styled));
   });
 
   StageKey picture = keyOf(
       {frame.strokes.version, frame.styles.version, frame.planes.version, frame.surfaces.version});
-  picture.add(frame.tone.version).add(strips.version);
+  picture.add(frame.tone.version).add(frame.ownLights.version).add(strips.version);
   picture.add(look.output.background).add(look.output.edges).add(look.output.scale);
   picture.add(groundTable, &look.passes.ground).add(paperTable, &look.passes.paper);
   picture.add(look.frame.up);

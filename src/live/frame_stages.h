@@ -46,7 +46,7 @@ struct StagedFrame {
   std::vector<LightStagesMade> lights;
   Made<DoubtedStyles> styles;
   Made<Floats> tone;  ///< brush.tone
-  Made<BrushResult> strokes;
+  Made<BrushResult> strokes, ownLights;
   Made<FinishedPicture> picture;
   std::vector<std::string> warnings;  ///< each once, in the order of composeFrame's
 };
@@ -72,15 +72,17 @@ class FrameStages {
                                const StagedFrame& frame, StageRun& run);
   Made<Floats> composeTone(const Look& look, const FramePlan& plan, const StagedFrame& frame,
                            StageRun& run);
+  Made<Floats> composeShared(const Look& look, const FramePlan& plan, const StagedFrame& frame,
+                             StageKey tone, StageRun& run);
   void paint(const Look& look, const Made<StripSet>& strips, const FramePlan& plan,
              StagedFrame& frame, StageRun& run);
   void forgetLights(const FramePlan& plan);
 
   Stage<FrameSurfaces> surfaces_;
   std::map<std::string, LightStages> lights_;
-  Stage<Floats> sum_, tone_;
+  Stage<Floats> sum_, tone_, shared_;
   Stage<DoubtedStyles> styles_;
-  Stage<BrushResult> strokes_;
+  Stage<BrushResult> strokes_, ownLights_;
   Stage<FinishedPicture> picture_;
 };
 

@@ -24,8 +24,8 @@ size_t bytesOf(const FramePlanes& planes) {
   for (const Vec3Plane* plane : {&planes.position, &planes.normal, &planes.rest, &planes.albedo,
                                  &planes.beauty, &planes.lines})
     bytes += ofVectors(*plane);
-  for (const Floats* plane : {&planes.u, &planes.v, &planes.instanceRandom, &planes.alpha,
-                              &planes.linesAlpha, &planes.depth})
+  for (const Floats* plane : {&planes.u, &planes.v, &planes.instanceRandom, &planes.emission,
+                              &planes.alpha, &planes.linesAlpha, &planes.depth})
     bytes += of(*plane);
   for (const Labels* plane : {&planes.objectId, &planes.materialId}) bytes += of(*plane);
   for (const Labels& plane : planes.coverageIds) bytes += of(plane);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/folder_bound.h"
 #include "compositor/strip_set.h"
+#include "look/light_strip.h"
 
 namespace kagefude {
 namespace {
@@ -25,6 +26,20 @@ std::set<std::pair<std::string, std::string>> filesNamed(const Look& look) {
     named.insert({"light.depth_map", light.light.depthMap});
   }
   for (const std::string& file : look.frame.files) named.insert({"frame.files", file});
+  return named;
+}
+
+/// Every strip that a look names, with its key.
+std::vector<std::pair<const char*, std::string>> stripsNamed(const Look& look) {
+  std::vector<std::pair<const char*, std::string>> named;
+  for (const StyleLook& style : look.styles) {
+    named.emplace_back("style.strip", style.style.strip);
+    for (const LightStrip& own : lightStripsOf(style.style))
+      if (!own.strip.empty()) named.emplace_back("style.light_strips", own.strip);
+  }
+  for (const LightLook& light : look.lights)
+    if (!light.light.strip.empty()) named.emplace_back("light.strip", light.light.strip);
+  named.emplace_back("ground.strip", look.passes.ground.strip);
   return named;
 }
 
@@ -53,8 +68,7 @@ void refuseForeignPaths(const Look& onDisk, const Look& asked) {
         "{} = \"{}\" cannot be set from the page; write it into the look's file", key, file));
   }
   std::set<std::string> strips;
-  for (const StyleLook& style : onDisk.styles) strips.insert(style.style.strip);
-  strips.insert(onDisk.passes.ground.strip);
+  for (const auto& [key, strip] : stripsNamed(onDisk)) strips.insert(strip);
   const auto refuse = [&](const char* key, const std::string& strip) {
     if (isBuiltinStrip(strip) || strips.contains(strip)) return;
     if (!liesInFolder(asked.folder, strip))
@@ -62,8 +76,7 @@ void refuseForeignPaths(const Look& onDisk, const Look& asked) {
           "{} = \"{}\" is not in the look's folder; the page can only choose strips that lie there",
           key, strip));
   };
-  for (const StyleLook& style : asked.styles) refuse("style.strip", style.style.strip);
-  refuse("ground.strip", asked.passes.ground.strip);
+  for (const auto& [key, strip] : stripsNamed(asked)) refuse(key, strip);
 }
 
 }  // namespace kagefude

@@ -77,7 +77,7 @@ FramePlanes sampleFrame(const FramePlanes& planes, int step) {
     result.*vectors = sample(planes.*vectors, step);
   for (Floats FramePlanes::*const floats :
        {&FramePlanes::u, &FramePlanes::v, &FramePlanes::instanceRandom, &FramePlanes::alpha,
-        &FramePlanes::linesAlpha, &FramePlanes::depth})
+        &FramePlanes::emission, &FramePlanes::linesAlpha, &FramePlanes::depth})
     result.*floats = sample(planes.*floats, step);
   result.objectId = sample(planes.objectId, step);
   result.materialId = sample(planes.materialId, step);

@@ -28,8 +28,7 @@ void addLightReading(StageKey& key, const FrameLight& light) {
   const ShadowNeeds& needs = entryOf(light.method).needs;
   addNames(key, light.maskChannels);
   key.add(light.tracedChannel).add(needs.camera).add(light.readsDepthMap);
-  if (light.readsDepthMap)
-    key.add(light.depthMap->file.native()).add(light.depthMap->channel);
+  if (light.readsDepthMap) key.add(light.depthMap->file.native()).add(light.depthMap->channel);
 }
 
 bool wantsScene(const FramePlan& plan) {
@@ -82,7 +81,7 @@ void addReading(StageKey& key, const Look& look, const FramePlan& plan) {
   key.add(aovNamesTable, &look.frame).add(plan.image.view).add(plan.frame);
   for (const std::optional<Aov>& aov :
        {std::optional(plan.position), std::optional(plan.normal), plan.albedo, plan.beauty,
-        plan.rest, plan.uv, plan.instanceRandom, plan.depth, plan.coverage,
+        plan.rest, plan.uv, plan.instanceRandom, plan.emission, plan.depth, plan.coverage,
         std::optional(plan.objectId), plan.materialId})
     addAov(key, aov);
   addNames(key, plan.lines);
@@ -136,6 +135,7 @@ void addStrokes(StageKey& key, const Look& look, const FramePlan& plan) {
   addNames(key, plan.materialNames);
   for (const StyleLook& style : look.styles)
     key.add(styleTable, &style.style, {"colour", "outline_colour"});
+  for (const LightLook& light : look.lights) key.add(light.light.name).add(light.light.strip);
   addStyleSections(key, look, isOfStrokes);
 }
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "live/stage_keys.h"
+#include "look/light_strip.h"
 
 namespace kagefude {
 namespace {
@@ -70,9 +71,18 @@ StripSet::Loaded StripShelf::loadMissing(Look look, const Colour& colour,
              return spare.name == name && spare.stamp == wanted;
            });
   };
-  std::erase_if(look.styles, [&](const StyleLook& style) { return isThere(style.style.strip); });
-  const std::vector<std::string> painted = paintedFiles(look);
-  if (painted.size() > look.styles.size() && isThere(painted.back()))
+  for (StyleLook& style : look.styles)
+    std::erase_if(style.style.lightStrips, [&](const std::string& entry) {
+      const std::string strip = lightStripFrom(entry).strip;
+      return strip.empty() || isThere(strip);
+    });
+  std::erase_if(look.styles, [&](const StyleLook& style) {
+    return style.style.lightStrips.empty() && isThere(style.style.strip);
+  });
+  std::erase_if(look.lights, [&](const LightLook& light) {
+    return light.light.strip.empty() || isThere(light.light.strip);
+  });
+  if (const std::string ground = groundFile(look); !ground.empty() && isThere(ground))
     look.output.background = Background::beauty;  // shows no file of its own
   return StripSet(look, colour).release();
 }

@@ -35,7 +35,7 @@ void paintOil(StripPaintParams& p) {
 constexpr PresetKey oilKeys[] = {
     {"brush", "contrast", "1.15", 0, "thick paint: strokes stand out"},
     {"smooth", "h", "", 0.006f, "edges of shadows are as soft as the brush"},
-    {"edges", "rough", "", 0.0018f, "strokes end where the bristles do, not on the outline"},
+    {"edges", "rough", "", 0.0014f, "strokes end where the bristles do, not on the outline"},
     {"edges", "lost", "", 0.015f, "edges melt where both sides are equally bright"},
 };
 
@@ -60,7 +60,6 @@ void paintGouache(StripPaintParams& p) {
 constexpr PresetKey gouacheKeys[] = {
     {"brush", "contrast", "1", 0, "matte paint: strokes show where tones meet"},
     {"smooth", "h", "", 0.008f, "steps are rounded, as a full brush leaves them"},
-    {"edges", "rough", "", 0.0011f, "a brush's edge, not a knife's"},
 };
 
 // Flat tones must not change within themselves, so they lean by points and not by hueShift.
@@ -129,6 +128,7 @@ constexpr PresetKey pastelKeys[] = {
     {"paper", "by_tone", "0", 0, "in light and shadow alike"},
     {"paper", "relief", "0.15", 0, "its grain is seen by its own light"},
     {"paper", "grain", "", 0.006f, "pixels"},
+    {"paper", "fixed", "\"world\"", 0, "on the things, so that nothing slides under a moving one"},
 };
 
 constexpr TonePoint watercolourRamp[] = {{0.00f, 0.30f, 0.42f, 1.15f},
@@ -156,16 +156,15 @@ constexpr PresetKey watercolourKeys[] = {
     {"brush", "contrast", "1.2", 0, "washes that dried over each other"},
     {"smooth", "h", "", 0.012f, "washes run into each other"},
     {"shade", "wrap", "0.1", 0, "light reaches a little round the form"},
-    {"outline", "width", "", 0.002f, "pixels: the rim where a wash dried"},
-    {"outline", "crease_angle", "180", 0, "round things only"},
     {"edges", "rim", "", 0.0074f, "pigment gathers where a wash dries at its edge"},
-    {"edges", "rim_strength", "0.7", 0, ""},
+    {"edges", "rim_strength", "1", 0, "so that edges are drawn without a line"},
     {"edges", "lost", "", 0.015f, "washes of one tone run into each other"},
     {"paper", "strength", "0.08", 0, "washes settle in the tooth"},
     {"paper", "pressure", "0.95", 0, "and cover nearly all of it"},
     {"paper", "by_tone", "0", 0, ""},
     {"paper", "relief", "0.2", 0, "rough paper under thin paint"},
     {"paper", "grain", "", 0.0074f, "pixels"},
+    {"paper", "fixed", "\"world\"", 0, "on the things, so that nothing slides under a moving one"},
 };
 
 constexpr LookPreset presets[] = {
@@ -180,7 +179,7 @@ constexpr LookPreset presets[] = {
     {"pastel", "chalk on rough paper: light, grainy, with coloured shadows", paintPastel,
      pastelRamp, pastelKeys, 0.55f, 0.4f},
     {"watercolour", "pale transparent washes that leave the paper in the light", paintWatercolour,
-     watercolourRamp, watercolourKeys, 0.9f, 0.5f, 0.55f, 1.1f},
+     watercolourRamp, watercolourKeys, 0.9f, 0.5f},
 };
 
 const V3f paperTint(0.0f, 0.004f, 0.018f);  // Oklab, added

@@ -43,6 +43,7 @@ struct SceneParams {
   std::vector<float> centre;
   float radius = 0.0f;
   float distance = 0.0f;
+  std::vector<float> world;
 
   /// Whether it stands for what the JSON says of the scene's place and size.
   bool sizes() const { return !centre.empty() && radius > 0.0f; }
@@ -59,6 +60,9 @@ inline constexpr Parameter sceneParameters[] = {
     number<&SceneParams::distance>(
         "distance", 0, 1e12, "world units",
         "distance of the camera from it, for brush.size = \"screen\"; 0: as the JSON says"),
+    numbers<&SceneParams::world>(
+        "world", 3, 0, 1e6, "scene-linear",
+        "radiance r, g, b of the world's own light, for tone.world; empty: as the JSON says"),
 };
 inline constexpr ParameterTable sceneTable{"scene", "says how large the shot's scene is",
                                            "kagefude", sceneParameters};
@@ -141,6 +145,7 @@ struct StyleParams {
   std::vector<float> reference;
   std::string light;
   std::vector<float> outlineColour;
+  std::vector<std::string> lightStrips;
 };
 inline constexpr Parameter styleParameters[] = {
     plain<&StyleParams::object>("object", "names or globs of objects that the style paints"),
@@ -165,6 +170,11 @@ inline constexpr Parameter styleParameters[] = {
                                "light that strokes run round; empty: the one that weighs most"),
     numbers<&StyleParams::outlineColour>("outline_colour", 3, 0, 100, "scene-linear",
                                          "colour r, g, b of the outlines; empty: no outlines"),
+    plain<&StyleParams::lightStrips>(
+        "light_strips",
+        "strips of single lights, such as Rim=strips/rim.png (* and ? in names; the first that "
+        "fits): what such a light adds is painted with its strip, and it counts in no other; "
+        "Rim= counts it in the style's own, whatever light.strip says"),
 };
 inline constexpr ParameterTable styleTable{"style", "paints objects or materials with a strip",
                                            "002 fig. 5.5", styleParameters};
@@ -187,6 +197,7 @@ struct LightParams {
   std::string depthMap;
   std::vector<float> lightFromWorld;
   std::vector<float> clipFromLight;
+  std::string strip;
 };
 inline constexpr Parameter lightParameters[] = {
     plain<&LightParams::name>("name", "name or glob of the light"),
@@ -214,6 +225,10 @@ inline constexpr Parameter lightParameters[] = {
                                           "matrix of the depth map's camera, row by row"),
     numbers<&LightParams::clipFromLight>("clip_from_light", 16, -1e12, 1e12, "",
                                          "projection of the depth map's camera, row by row"),
+    plain<&LightParams::strip>(
+        "strip",
+        "strip, as style.strip names one, that what this light adds is painted with on everything; "
+        "empty: it counts in each style's own"),
 };
 inline constexpr ParameterTable lightTable{"light", "settings of one light, or a light of its own",
                                            "kagefude", lightParameters};

@@ -19,14 +19,20 @@ namespace {
 
 constexpr int64_t mostPixels = int64_t{1} << 26;
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
-  throw InputError(fmt::format("strip {} {}", path.string(), why));
+/// A file, and what messages call it.
+struct Source {
+  const std::filesystem::path& path;
+  std::string_view what;
+};
+
+[[noreturn]] void refuse(const Source& source, const std::string& why) {
+  throw InputError(fmt::format("{} {} {}", source.what, source.path.string(), why));
 }
 
 /// Before anything of the picture's size is allocated.
-void requireSize(const std::filesystem::path& path, int width, int height) {
+void requireSize(const Source& source, int width, int height) {
   if (int64_t{width} * height > mostPixels)
-    refuse(path,
+    refuse(source,
            fmt::format("is {} x {} pixels; at most {} are allowed", width, height, mostPixels));
 }
 
@@ -62,16 +68,16 @@ StripPicture readPngStrip(const std::filesystem::path& path) {
 }
 
 /// R, G, B by name; a file without them is taken for grey by its first channel that is not alpha.
-StripPicture readExrStrip(const std::filesystem::path& path) {
-  const ImageFile image = openImage(path);
-  requireSize(path, image.width, image.height);
+StripPicture readExrStrip(const Source& source) {
+  const ImageFile image = openImage(source.path);
+  requireSize(source, image.width, image.height);
   std::vector<std::string> names = {"R", "G", "B"};
   for (const std::string& name : names)
     if (!image.findChannel(name)) {
       const std::vector<std::string> all = image.channelNames();
       const auto grey =
           std::find_if(all.begin(), all.end(), [](const std::string& n) { return n != "A"; });
-      if (grey == all.end()) refuse(path, "has no colour, only alpha");
+      if (grey == all.end()) refuse(source, "has no colour, only alpha");
       names.assign(3, std::string(*grey));
       break;
     }
@@ -95,13 +101,13 @@ bool saysLinear(const std::string& space) {
 
 /// Which channels are red, green, blue and, unless it is -1, alpha: by their places, as all formats
 /// but EXR have them.
-std::array<int, 4> placesIn(const std::filesystem::path& path, const PictureHeader& header) {
+std::array<int, 4> placesIn(const Source& source, const PictureHeader& header) {
   const auto count = static_cast<int>(header.channels.size());
-  if (count > 4) refuse(path, fmt::format("has {} channels; a picture has 1 to 4", count));
+  if (count > 4) refuse(source, fmt::format("has {} channels; a picture has 1 to 4", count));
   const bool hasAlpha = count == 2 || count == 4;
   const int alpha = hasAlpha ? count - 1 : -1;
   if (header.alpha != alpha)
-    refuse(path,
+    refuse(source,
            fmt::format("has {} channels, and {}; expected grey or red, green, blue, and then "
                        "alpha",
                        count,
@@ -110,10 +116,10 @@ std::array<int, 4> placesIn(const std::filesystem::path& path, const PictureHead
   return count < 3 ? std::array{0, 0, 0, alpha} : std::array{0, 1, 2, alpha};
 }
 
-StripPicture readOtherStrip(const std::filesystem::path& path) {
-  PictureFile file(path, mostPixels);
+StripPicture readOtherStrip(const Source& source) {
+  PictureFile file(source.path, mostPixels);
   const PictureHeader& header = file.header();
-  const std::array<int, 4> places = placesIn(path, header);
+  const std::array<int, 4> places = placesIn(source, header);
   const int width = header.dataWindow.width, height = header.dataWindow.height;
   std::vector<Floats> channels;
   std::vector<PicturePlane> planes;
@@ -141,13 +147,14 @@ StripPicture readOtherStrip(const std::filesystem::path& path) {
 
 }  // namespace
 
-StripPicture readStrip(const std::filesystem::path& path) {
+StripPicture readStrip(const std::filesystem::path& path, std::string_view what) {
+  const Source source{path, what};
   std::error_code missing;
-  if (!std::filesystem::exists(path, missing)) refuse(path, "does not exist");
+  if (!std::filesystem::exists(path, missing)) refuse(source, "does not exist");
   requirePlainFile(path);
   if (startsWith(path, {0x89, 'P', 'N', 'G'})) return readPngStrip(path);
-  if (startsWith(path, {0x76, 0x2f, 0x31, 0x01})) return readExrStrip(path);
-  return readOtherStrip(path);
+  if (startsWith(path, {0x76, 0x2f, 0x31, 0x01})) return readExrStrip(source);
+  return readOtherStrip(source);
 }
 
 }  // namespace kagefude

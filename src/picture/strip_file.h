@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "image/plane.h"
 
@@ -23,7 +24,8 @@ struct StripPicture {
 /// Reads a strip from a picture of any format that OpenImageIO reads: a PNG or EXR, told by its
 /// first bytes, by the program itself, others by the worker (see picture_file.h). Throws InputError
 /// when it is missing, unreadable, truncated, deep, in CMYK, not of 1 to 4 channels, above 64
-/// megapixels, of an absurd claim (checkClaim) or of a format that is refused by name.
-StripPicture readStrip(const std::filesystem::path& path);
+/// megapixels, of an absurd claim (checkClaim) or of a format that is refused by name; `what` is
+/// what its messages call the file.
+StripPicture readStrip(const std::filesystem::path& path, std::string_view what = "strip");
 
 }  // namespace kagefude

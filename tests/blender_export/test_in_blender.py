@@ -95,12 +95,20 @@ class Export(unittest.TestCase):
     def test_all_layers_are_there(self):
         wanted = {"data.Normal.X", "data.Position.Z", "data.Depth.V", "data.IndexOB.V",
                   "data.IndexMA.V", "data.Vector.X", "data.UV.X", "data.DiffCol.R",
-                  "data.CryptoObject00.R", "data.CryptoMaterial00.R", "beauty.Combined.R"}
+                  "data.CryptoObject00.R", "data.CryptoMaterial00.R", "beauty.Combined.R",
+                  "data.Emit.R"}
         for light in self.document["lights"]:
             wanted |= {sample["layer"] + ".V" for sample in light["masks"]["samples"]}
             wanted.add(light["truth_layer"] + ".V")
             self.assertEqual(len(light["masks"]["samples"]), 5)
         self.assertEqual(wanted - set(self.pixels), set())
+
+    def test_what_shines_without_the_lights_is_told(self):
+        for found, wanted in zip(self.document["world"]["radiance"], (0.25, 0.3, 0.4)):
+            self.assertAlmostEqual(found, wanted, places=6)
+        glow = {tuple(round(value, 4) for value in colour)
+                for colour in zip(*(self.channel(f"data.Emit.{part}") for part in "RGB"))}
+        self.assertEqual(glow, {(0.0, 0.0, 0.0), (1.0, 0.5, 0.2)}, "the box alone glows")
 
     def test_masks_are_exactly_0_or_1_and_show_both(self):
         for light in self.document["lights"]:

@@ -59,6 +59,58 @@ class NodeEmission(unittest.TestCase):
         self.assertEqual((found.strength, found.unknown), (1.0, 'ShaderNodeTexNoise'))
 
 
+class WorldRadiance(unittest.TestCase):
+    @staticmethod
+    def world(shader):
+        return lamp(shader)
+
+    def test_one_background_is_its_colour_times_its_strength(self):
+        sky = node('ShaderNodeBackground', Strength=socket(2.0), Color=socket((0.1, 0.2, 0.4, 1.0)))
+        for found, wanted in zip(emission.world_radiance(self.world(sky)), (0.2, 0.4, 0.8)):
+            self.assertAlmostEqual(found, wanted)
+
+    def test_without_nodes_it_is_the_worlds_own_colour(self):
+        plain = Fake(use_nodes=False, node_tree=None, color=(0.05, 0.06, 0.07))
+        self.assertEqual(emission.world_radiance(plain), (0.05, 0.06, 0.07))
+
+    def test_no_world_and_no_shader_are_dark(self):
+        self.assertEqual(emission.world_radiance(None), (0.0, 0.0, 0.0))
+        self.assertEqual(emission.world_radiance(self.world(None)), (0.0, 0.0, 0.0))
+
+    def test_what_differs_by_direction_is_not_known(self):
+        picture = node('ShaderNodeTexEnvironment')
+        sky = node('ShaderNodeBackground', Strength=socket(1.0),
+                   Color=socket(source=(picture, socket())))
+        self.assertIsNone(emission.world_radiance(self.world(sky)))
+        self.assertIsNone(emission.world_radiance(self.world(node('ShaderNodeMixShader'))))
+
+
+class Emits(unittest.TestCase):
+    @staticmethod
+    def tree(*nodes):
+        return Fake(nodes=nodes)
+
+    def test_emission_shaders_in_groups_too(self):
+        self.assertFalse(emission.emits(None))
+        self.assertFalse(emission.emits(self.tree(node('ShaderNodeBsdfDiffuse'))))
+        glow = self.tree(emitter(socket(1.0)))
+        self.assertTrue(emission.emits(glow))
+        group = node('ShaderNodeGroup')
+        group.node_tree = glow
+        self.assertTrue(emission.emits(self.tree(group)))
+        group.mute = True
+        self.assertFalse(emission.emits(self.tree(group)))
+
+    def test_a_principled_shader_of_either_name_with_strength_and_colour(self):
+        black, orange = (0.0, 0.0, 0.0, 1.0), (1.0, 0.5, 0.2, 1.0)
+        for name in ("Emission", "Emission Color"):
+            for color, strength, wanted in ((black, 1.0, False), (orange, 0.0, False),
+                                            (orange, 1.0, True)):
+                shader = node('ShaderNodeBsdfPrincipled',
+                              **{name: socket(color), "Emission Strength": socket(strength)})
+                self.assertEqual(emission.emits(self.tree(shader)), wanted, (name, color, strength))
+
+
 class Irradiance(unittest.TestCase):
     """Against what Cycles gives a white diffuse plane, whose radiance is E / pi."""
 

@@ -141,6 +141,15 @@ TEST_F(Ground, APictureThatIsNotNamedIsRefused) {
   }
 }
 
+TEST_F(Ground, APictureThatIsMissingIsCalledByItsKey) {
+  try {
+    comp("output.background = \"picture\"\nground.picture = \"none.png\"\n");
+    FAIL() << "nothing was said";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("ground.picture ")) << error.what();
+  }
+}
+
 TEST_F(Ground, DefaultsOfItsKeysChangeNothing) {
   const FrameResult before = comp("");
   EXPECT_TRUE(same(before, comp("paper.grain = 9\nedges.overrun = 1\nground.low = 0\n"

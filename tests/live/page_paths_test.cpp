@@ -43,6 +43,16 @@ TEST_F(PagePaths, RefuseStripsElsewhere) {
         << strip;
 }
 
+TEST_F(PagePaths, RefuseStripsOfLightsElsewhere) {
+  write("[[light]]\nname = \"Rim\"\n[[style]]\nlight_strips = [\"Key=/mine/key.png\"]\n");
+  EXPECT_EQ(refusal({}), "");
+  EXPECT_EQ(refusal({"light[0].strip=strips/rim.png"}), "");
+  EXPECT_EQ(refusal({"style[0].light_strips=[\"Rim=builtin:cel\", \"Key=\"]"}), "");
+  EXPECT_NE(refusal({"light[0].strip=/etc/passwd"}).find("light.strip"), std::string::npos);
+  EXPECT_NE(refusal({"style[0].light_strips=[\"Rim=../rim.png\"]"}).find("style.light_strips"),
+            std::string::npos);
+}
+
 TEST_F(PagePaths, RefuseEveryOtherFileThatTheLookDoesNotName) {
   write("colour.config = \"own.ocio\"\n[[light]]\nname = \"Key\"\n[[style]]\n");
   EXPECT_EQ(refusal({"colour.config=own.ocio"}), "");

@@ -105,6 +105,7 @@ void layOver(const PaintViews& paint, const ColourViews& ground) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < paint.a.width; ++x) {
         const float behind = 1.0f - paint.a(x, y);
+        if (behind == 0.0f) continue;  // most of a picture: its ground need not be read
         paint.r(x, y) += behind * ground.r(x, y);
         paint.g(x, y) += behind * ground.g(x, y);
         paint.b(x, y) += behind * ground.b(x, y);

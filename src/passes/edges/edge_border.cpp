@@ -11,7 +11,23 @@ namespace {
 constexpr int stepX[4] = {1, -1, 0, 0}, stepY[4] = {0, 0, 1, -1};
 constexpr int square = 32;
 
+/// By the numbers' runs along rows.
+std::vector<uint32_t> countPixels(View<const uint16_t> things, size_t most) {
+  std::vector<uint32_t> sizes(most + 1, 0u);
+  for (int y = 0; y < things.height; ++y) {
+    const uint16_t* const row = things.row(y);
+    for (int x = 0, first = 0; x < things.width; first = x) {
+      while (x < things.width && row[x] == row[first]) ++x;
+      if (row[first] <= most) sizes[row[first]] += static_cast<uint32_t>(x - first);
+    }
+  }
+  return sizes;
+}
+
 }  // namespace
+
+EdgeBorders::EdgeBorders(const EdgePaint& in)
+    : in_(in), sizes_(countPixels(in.things, in.params.size())) {}
 
 bool EdgeBorders::isBorder(uint16_t own, int x, int y) const {
   if (!in_.things.contains(x, y)) return false;
@@ -115,7 +131,19 @@ bool EdgeBorders::isInFront(const Border& border) const {
   const uint16_t other = in_.things(border.other.x, border.other.y);
   if (own == 0 || other == 0) return other == 0;
   const float here = distanceOf(border.own), there = distanceOf(border.other);
-  return here != there ? here < there : own < other;
+  const float change =
+      std::max(changeOf(border.own, border.other), changeOf(border.other, border.own));
+  if (std::fabs(here - there) > 2.0f * change) return here < there;
+  const uint32_t size = sizeOf(own), otherSize = sizeOf(other);
+  return size != otherSize ? size < otherSize : own < other;
+}
+
+/// How the distance of the thing at `at` changes to its next pixel, seen from `beyond`.
+float EdgeBorders::changeOf(const PixelAt& at, const PixelAt& beyond) const {
+  const PixelAt next{2 * at.x - beyond.x, 2 * at.y - beyond.y};
+  if (!in_.things.contains(next.x, next.y) || in_.things(next.x, next.y) != in_.things(at.x, at.y))
+    return 0.0f;
+  return std::fabs(distanceOf(next) - distanceOf(at));
 }
 
 /// Squared where positions tell it; only compared.

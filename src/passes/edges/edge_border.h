@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "passes/edges/painted_edges.h"
 
 namespace kagefude {
@@ -20,7 +22,7 @@ struct Border {
 class EdgeBorders {
  public:
   /// `in` must outlive it.
-  explicit EdgeBorders(const EdgePaint& in) : in_(in) {}
+  explicit EdgeBorders(const EdgePaint& in);
 
   /// Params of the pixel's thing; of the background and unknown things those that do nothing.
   const PaintedEdgeParams& paramsAt(const PixelAt& at) const {
@@ -41,14 +43,21 @@ class EdgeBorders {
   const PaintedEdgeParams& paramsOf(uint16_t thing) const {
     return thing == 0 || thing > in_.params.size() ? none_ : in_.params[thing - 1u];
   }
+  uint32_t sizeOf(uint16_t thing) const { return thing < sizes_.size() ? sizes_[thing] : 0u; }
   bool isBorder(uint16_t own, int x, int y) const;
   bool ownPixelNear(int x, int y, PixelAt& at) const;
   float withinPixels(int x, int y, const Border& border) const;
   float covered(uint32_t id, const PixelAt& at) const;
+  /// Whether the own thing is: the nearer one. Where both are equally far, as where one stands on
+  /// the other, the smaller in the picture is, all along that border: pixels there would tell it
+  /// now of the one and now of the other. Equally far are those that differ by less than twice what
+  /// either changes from pixel to pixel.
   bool isInFront(const Border& border) const;
   float distanceOf(const PixelAt& at) const;
+  float changeOf(const PixelAt& at, const PixelAt& beyond) const;
 
   const EdgePaint& in_;
+  std::vector<uint32_t> sizes_;  ///< pixels of each thing, by its number
   const PaintedEdgeParams none_{};
 };
 

@@ -18,13 +18,18 @@ float eased(float t) {
   return c * c * (3.0f - 2.0f * c);
 }
 
+float luminanceOf(const Rgba& colour) {
+  return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+}
+
 /// How bright a colour over nothing looks, about 0..1.
 float brightness(const Rgba& colour) {
-  const float luminance = 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+  const float luminance = luminanceOf(colour);
   return std::sqrt(luminance > 0.0f ? luminance : 0.0f);
 }
 
-/// Colour with its pigment `dense` times as dense.
+/// Colour with its pigment `dense` times as dense, but no less than 1 / dense as bright: what is
+/// dark already gains colour, not blackness.
 Rgba pooled(const Rgba& colour, float dense) {
   const float alpha = colour[3];
   if (!(alpha > 0.0f) || dense == 1.0f) return colour;
@@ -33,6 +38,9 @@ Rgba pooled(const Rgba& colour, float dense) {
     const float own = colour[k] / alpha;
     if (own > 0.0f && own < 1.0f) result[k] = alpha * powerOf(own, dense);
   }
+  const float now = luminanceOf(result), least = luminanceOf(colour) / dense;
+  if (dense > 1.0f && now > 0.0f && now < least)
+    for (int k = 0; k < 3; ++k) result[k] *= least / now;
   return result;
 }
 
@@ -51,6 +59,9 @@ class EdgePainter {
     const PaintedEdgeParams& own = borders_.paramsAt({x, y});
     const PaintedEdgeParams& other = borders_.paramsAt(border.other);
     const PaintedEdgeParams& front = border.inFront ? own : other;
+    const float gap = border.inFront ? dryShare(own, border.distance, x, y) : 0.0f;
+    if (border.distance > changedWithin(front) + (border.inFront ? own.rim : 0.0f))
+      return leaveOut(gap, x, y, paint);
     const PixelAt beyond = borders_.mirrored(x, y, border);
     const float grain = borderGrain(x, y, border, beyond, front);
     const float melted = front.lost > 0.0f ? lostShare(border, front) : 0.0f;
@@ -59,7 +70,6 @@ class EdgePainter {
     const float shift = front.rough * (grain + front.overrun);
     const float inside = border.distance + (border.inFront ? shift : -shift);
     const float rimOwn = border.inFront ? rimDensity(own, inside, melted, grain) : 1.0f;
-    const float gap = border.inFront ? dryShare(own, border.distance, x, y) : 0.0f;
     if (!moves && rimOwn == 1.0f && gap == 0.0f) return;
 
     Rgba colour{paint.r(x, y), paint.g(x, y), paint.b(x, y), paint.a(x, y)};
@@ -85,6 +95,18 @@ class EdgePainter {
   }
 
  private:
+  /// How far from the border its paint may be mixed with that beyond it.
+  static float changedWithin(const PaintedEdgeParams& p) {
+    return p.rough * (1.075f + std::fabs(p.overrun)) + 0.5f * p.lost + 1.0f;
+  }
+
+  /// All that is left to do further away.
+  static void leaveOut(float gap, int x, int y, const PaintViews& paint) {
+    if (gap == 0.0f) return;
+    for (const View<float>* plane : {&paint.r, &paint.g, &paint.b, &paint.a})
+      (*plane)(x, y) *= 1.0f - gap;
+  }
+
   static float reachOf(const PaintedEdgeParams& p) {
     const float moved = p.rough * (1.0f + std::fabs(p.overrun)) + 0.5f * p.lost + 2.0f;
     return std::max(moved + p.rim, p.dry > 0.0f ? p.dryWidth : 0.0f);
@@ -100,7 +122,7 @@ class EdgePainter {
                     const PaintedEdgeParams& front) const {
     const PixelAt at = border.inFront ? PixelAt{x, y} : beyond;
     const PixelAt rim = border.inFront ? border.own : border.other;
-    const int step = std::max(1, static_cast<int>(front.rough * 0.5f + 0.5f));
+    const int step = std::max(2, static_cast<int>(front.rough * 0.5f + 0.5f));
     constexpr float ofBorder = 1.1f, ofPixel = 0.2f;
     const float grain = ofBorder * meanGrain(rim, step) + ofPixel * in_.grain(at.x, at.y);
     return grain > -1.0f ? (grain < 1.0f ? grain : 1.0f) : -1.0f;

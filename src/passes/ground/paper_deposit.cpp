@@ -17,18 +17,41 @@ float depositShare(float height, float tone, float grain, const PaperParams& par
   return 1.0f - params.strength * (1.0f - covered);
 }
 
+namespace {
+
+/// Pixels that are worked on at a time: shares first, then plane by plane, each a plain loop.
+constexpr int run = 256;
+
+/// What the paint's alpha and its colours are multiplied by.
+struct Deposit {
+  float share[run], shaded[run];
+};
+
+void depositRun(const float* height, const float* slope, const float* tone, const float* grain,
+                int count, const PaperParams& params, Deposit& out) {
+  for (int i = 0; i < count; ++i)
+    out.share[i] = depositShare(height[i], tone[i], grain ? grain[i] : 0.0f, params);
+  for (int i = 0; i < count; ++i) out.shaded[i] = out.share[i] * reliefFactor(slope[i], params);
+}
+
+void multiplyRun(float* values, const float* factors, int count) {
+  for (int i = 0; i < count; ++i) values[i] *= factors[i];
+}
+
+}  // namespace
+
 void depositPaint(const PaintViews& paint, View<const float> tone, View<const float> grain,
                   const ToothViews& tooth, const PaperParams& params) {
   parallelRows(paint.a.height, [&](int first, int end) {
+    Deposit deposit;
     for (int y = first; y < end; ++y)
-      for (int x = 0; x < paint.a.width; ++x) {
-        const float stroke = grain.empty() ? 0.0f : grain(x, y);
-        const float share = depositShare(tooth.height(x, y), tone(x, y), stroke, params);
-        const float shaded = share * reliefFactor(tooth.slope(x, y), params);
-        paint.r(x, y) *= shaded;
-        paint.g(x, y) *= shaded;
-        paint.b(x, y) *= shaded;
-        paint.a(x, y) *= share;
+      for (int x = 0; x < paint.a.width; x += run) {
+        const int count = paint.a.width - x < run ? paint.a.width - x : run;
+        depositRun(tooth.height.row(y) + x, tooth.slope.row(y) + x, tone.row(y) + x,
+                   grain.empty() ? nullptr : grain.row(y) + x, count, params, deposit);
+        for (const View<float>* plane : {&paint.r, &paint.g, &paint.b})
+          multiplyRun(plane->row(y) + x, deposit.shaded, count);
+        multiplyRun(paint.a.row(y) + x, deposit.share, count);
       }
   });
 }

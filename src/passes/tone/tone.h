@@ -17,6 +17,8 @@ struct ToneParams {
   float black = 0;
   float white = 1;
   float gamma = 1;
+  float world = 0;
+  float emission = 0;
 };
 
 inline constexpr Parameter toneParameters[] = {
@@ -29,6 +31,14 @@ inline constexpr Parameter toneParameters[] = {
     number<&ToneParams::gamma>("gamma", 0.05, 20, "",
                                "Power by which middle tones are lifted: above 1 brighter, below 1 "
                                "darker."),
+    number<&ToneParams::world>(
+        "world", 0, 1, "",
+        "How much of the world's own light, as even as it comes, lifts the tone of what the lights "
+        "do not reach; its radiance is the JSON's, or scene.world."),
+    number<&ToneParams::emission>(
+        "emission", 0, 100, "",
+        "How much of what surfaces give off themselves (the frame's Emission pass) lifts their "
+        "tone; at 1 a surface that shines as a white one does in full light is as bright."),
 };
 inline constexpr ParameterTable toneTable{
     "tone", "Levels and gamma between the tone and the strip's rows.", "ours", toneParameters};

@@ -136,6 +136,45 @@ TEST(PaintedEdges, TheRimOfAWashIsDenserAndEndsWhereItsWidthEnds) {
   for (int x = 0; x < border; ++x) EXPECT_EQ(scene.a(x, 4), 1.0f);
 }
 
+TEST(PaintedEdges, TheRimOfADarkThingIsADeeperToneOfItAndNotBlack) {
+  Scene scene(0);
+  scene.params[0].rim = 8;
+  scene.params[0].rimStrength = 1;
+  const V3f plum(0.06f, 0.01f, 0.09f);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < border; ++x) {
+      scene.r(x, y) = plum.x;
+      scene.g(x, y) = plum.y;
+      scene.b(x, y) = plum.z;
+    }
+  scene.paint();
+  const auto luminance = [](const V3f& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; };
+  const V3f rim(scene.r(border - 2, 4), scene.g(border - 2, 4), scene.b(border - 2, 4));
+  // As dense as in the test above: no less than 1 / 1.84375 as bright, where c^d would be 0.03.
+  EXPECT_NEAR(luminance(rim) / luminance(plum), 1 / 1.84375f, 1e-3f);
+  EXPECT_LT(rim.y / rim.z, plum.y / plum.z) << "its colour is purer";
+  EXPECT_NEAR(std::log(rim.x / rim.z), 1.84375f * std::log(plum.x / plum.z), 1e-3f);
+}
+
+TEST(PaintedEdges, WhereOneThingStandsOnAnotherTheSmallerIsInFrontAllAlong) {
+  // The right thing is smaller; distances meet at the border, now one nearer and now the other, by
+  // less than they change from pixel to pixel.
+  Scene scene(2, 0.5f, 0.5f);
+  scene.params[0].rim = scene.params[1].rim = 6;
+  scene.params[0].rimStrength = scene.params[1].rimStrength = 1;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (x >= border + 8) scene.things(x, y) = 1;
+      const float apart = y % 2 ? 0.15f : -0.15f;
+      scene.distance(x, y) = 9 + 0.2f * float(x - border) + (x < border ? apart : 0.0f);
+    }
+  scene.paint();
+  for (int y = 0; y < height; ++y) {
+    EXPECT_LT(scene.r(border + 1, y), 0.4f) << "the rim lies on the smaller, row " << y;
+    EXPECT_EQ(scene.r(border - 2, y), 0.5f) << "and not on the other, row " << y;
+  }
+}
+
 TEST(PaintedEdges, DryPaintIsLeftOutInHollowsTowardsTheEdgeAlone) {
   Scene scene(0);
   scene.params[0].dry = 1;
