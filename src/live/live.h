@@ -52,12 +52,12 @@
 // longer must the hand rest (0.2 to 1 s). Full size is not a zoomed proxy: it is the same functions
 // on the frame's own planes, with the look's own lengths, hence equal to `comp`.
 //
-// Pace. A knob that takes longer than the hand waits (LiveSession::Settings::pace, 40 ms of making,
-// which leaves a third of 60 ms to the browser) shows every 2nd, 4th or 8th of those samples in
-// both ways until the hand rests; the fewer, the longer may they take. How many is learnt for each
-// knob from what its last picture took, so it is the machine's and the frame's own; a light that
-// moves is traced anew and begins at every 4th. While the hand rests, the proxies are brought up to
-// date, so that the first turn makes nothing but what it changes.
+// Pace. A knob that takes longer than the hand waits (LiveSession::Settings::pace, 25 ms of making;
+// the way of 1024 × 576 pixels to the eye takes another 30 of the 60 ms) shows every 2nd, 4th or
+// 8th of those samples in both ways until the hand rests; the fewer, the longer may they take. How
+// many is learnt for each knob from what its last picture took, so it is the machine's and the
+// frame's own; a light that moves is traced anew and begins at every 4th. While the hand rests, the
+// proxies are brought up to date, so that the first turn makes nothing but what it changes.
 //
 // No queue. A change replaces the one that waits; a page asks for the next picture when it has
 // drawn the last.

@@ -250,7 +250,8 @@ void LiveSession::keepPace(const LivePicture& picture, int coarser, Milliseconds
   if (picture.plan->hasCasters) proxies_.insert(coarserOfLights);
   if (madeFirst(picture)) return;
   if (coarser == 0) {
-    if (took <= settings_.pace) coarser_[turned_] = 1;
+    // At rest it has the machine for itself, so it must be well within the pace.
+    if (2 * took <= settings_.pace) coarser_[turned_] = 1;
     return;
   }
   // Half as many samples in both ways take about a quarter. The fewer there are, the longer may

@@ -75,7 +75,7 @@ class LiveSession {
     std::chrono::milliseconds rest{200};
     /// What making a picture may take while the hand moves: where it takes longer, fewer pixels are
     /// shown until the hand rests. One of every n-th pixel may take n times as long.
-    std::chrono::milliseconds pace{40};
+    std::chrono::milliseconds pace{25};
     std::chrono::milliseconds watch{250};
   };
 

@@ -106,7 +106,7 @@ const dragLight = async (name) => {
     point('pointermove', x);
     const { step } = (await drawn).detail;
     const took = performance.now() - start;
-    times.push({ took, step, sharp: NaN });
+    times.push({ took, step }); // not sharp before the hand rests
     await new Promise((done) => setTimeout(done, 50));
   }
   point('pointerup', 420);
@@ -136,7 +136,7 @@ function tell(name, turns, most, whole) {
   missed ||= !kept;
   console.log(`| ${name} | ${took.toFixed(0)} | ${Math.min(...of('took')).toFixed(0)} | ${most} ` +
     `${kept ? 'kept' : 'MISSED'} | ${(took / whole).toFixed(2)} | ${median(of('step'))} | ` +
-    `${median(of('sharp')).toFixed(0)} |`);
+    `${median(of('sharp'))?.toFixed(0) ?? ''} |`);
 }
 
 const browser = new Browser();
