@@ -2,7 +2,7 @@
 """How hard shadow masks are rendered, `--masks-by`: which way suits a light, and its masks.
 
 - `layers`: a view layer and a lamp for each mask. Right for everything; one render a mask, which on
-  kept data costs as much as rays of the Ambient Occlusion node up to some seventeen masks.
+  kept data costs about as much as rays of the Ambient Occlusion node.
 - `groups`: a light group for each mask and one view layer, sampled until every lamp was picked.
 - `occlusion`: rays of the Ambient Occlusion node, all masks in one sample (before 5.1).
 - `raycast`: rays of the Raycast node, the same (from 5.1).
@@ -16,7 +16,6 @@ from .light_state import new_mask_lamp, place_mask_lamp, TYPES
 from .output_names import mask_layer
 
 RAYS = ("occlusion", "raycast")
-FEW_MASKS = 17   # up to which layers take no longer than occlusion
 
 
 class MaskBackends:
@@ -28,7 +27,7 @@ class MaskBackends:
 
     def masks_of(self, light, key, count):
         """The masks of a light, rendered the way that was asked for or, where that is wrong, by layers."""
-        by = self._way(light, count)
+        by = self._way(light)
         kind = TYPES[light.data.type]
         names = [mask_layer(key, number) for number in range(count)]
         if by == "layers":
@@ -37,12 +36,10 @@ class MaskBackends:
             return GroupMasks(self.data, light, kind, names)
         return SightMasks(self.data, self._shared_sight(), by, kind, names)
 
-    def _way(self, light, count):
+    def _way(self, light):
         by = self.wanted
-        if by == "auto" and not compat.has_raycast_node() and count <= FEW_MASKS:
-            return "layers"
         if by == "auto":
-            by = "raycast" if compat.has_raycast_node() else "occlusion"
+            by = "raycast" if compat.has_raycast_node() else "layers"
         problem = self._problem(by, light)
         if not problem:
             return by

@@ -18,8 +18,9 @@ constexpr float refuted = 1.0f / 3.0f;  ///< share of contradicting masks from w
 // the map counts as so many masks. It does so where both say about the same, and where the light
 // grazes, where a texel's depth tells less than a mask; elsewhere what masks do not contradict is a
 // thin shadow between their places, and the map's alone.
-constexpr float worth = 20;     ///< masks
-constexpr float apart = 0.25f;  ///< visibilities that far apart are not the same
+constexpr float worth = 20;        ///< masks, where both say the same
+constexpr float worthGrazing = 5;  ///< masks
+constexpr float apart = 0.25f;     ///< visibilities that far apart are not the same
 constexpr float grazes = 0.4f,
                 faces = 0.7f;  ///< cosines between the normal and the way to the light
 
@@ -71,6 +72,12 @@ float weightOf(float here, float around) {
   return std::clamp(std::min(bySurroundings, byItself), 0.0f, 1.0f);
 }
 
+/// What masks have of a mean with a map that counts as `worth` masks.
+float shareOf(size_t masks, float worth) {
+  const float squared = static_cast<float>(masks * masks);
+  return squared / (squared + worth * worth);
+}
+
 /// Cosine between a normal and the way to the light.
 float facing(const ShadowMap& map, const V3f& position, const V3f& normal) {
   const bool perspective = map.clipFromLight.m[3][2] != 0;
@@ -89,8 +96,8 @@ void holdToMap(std::span<const PlacedMask> masks, Vec3View position, Vec3View no
       backProject(position, normal, surfaces, map, lightRadius, bias, masks, wanted);
   const Floats doubt = sharesOf(back.contradicted, masks.size());
   const Floats around = smoothWithinSurfaces(doubt, surfaces, SmoothParams{window});
-  const float counted = static_cast<float>(masks.size() * masks.size());
-  const float most = counted / (counted + worth * worth);
+  const float ofAlike = shareOf(masks.size(), worth);
+  const float ofGrazing = shareOf(masks.size(), worthGrazing);
   parallelRows(surfaces.height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)
       for (int x = 0; x < surfaces.width; ++x) {
@@ -99,7 +106,8 @@ void holdToMap(std::span<const PlacedMask> masks, Vec3View position, Vec3View no
         const float grazing =
             (faces - facing(map, position(x, y), normal(x, y))) / (faces - grazes);
         const float alike = 1 - std::fabs(back.visibility(x, y) - visibility) / apart;
-        const float byMasks = most * std::clamp(std::max(grazing, alike), 0.0f, 1.0f);
+        const float byMasks =
+            std::max(ofGrazing * std::clamp(grazing, 0.0f, 1.0f), ofAlike * std::max(alike, 0.0f));
         const float weight = weightOf(doubt(x, y), around(x, y)) * (1 - byMasks);
         const bool umbra = visibility == 0.0f && shape.unsure(x, y) == 0;
         const float brightest = umbra ? mostInUmbra : 1.0f;
