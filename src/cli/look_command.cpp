@@ -42,13 +42,13 @@ fs::path stripFolderOf(const fs::path& look) {
 /// What the look is made of must not be there yet, for it may be somebody's work.
 void refuseOverwriting(const NewOptions& options) {
   if (options.force) return;
-  for (const fs::path& path : {fs::path(options.output), stripFolderOf(options.output)}) {
+  for (const fs::path& path :
+       {fs::path(options.output), stripFolderOf(options.output), fs::path(options.preview)}) {
     std::error_code failed;
-    if (fs::exists(fs::symlink_status(path, failed)))
+    if (!path.empty() && fs::exists(fs::symlink_status(path, failed)))
       throw UsageError(
-          fmt::format("{} is there already; another name for -o keeps it, --force "
-                      "writes over it",
-                      path.string()));
+          fmt::format("{} is there already; another name for {} keeps it, --force writes over it",
+                      path.string(), path == options.preview ? "--preview" : "-o"));
   }
 }
 
@@ -156,10 +156,22 @@ DraftFrame draftFrame(const NewOptions& options, const Look& look, const Colour&
   return frame;
 }
 
+/// What would fail after the look is written is refused before, and its folder made.
+void checkPreview(const NewOptions& options) {
+  if (options.preview.empty()) return;
+  if (formatOf(options.preview, "--preview").isExr())
+    throw UsageError("--preview: previews are display-ready, and EXRs are scene-linear");
+  const fs::path folder = fs::absolute(options.preview).lexically_normal().parent_path();
+  if (folder == fs::absolute(stripFolderOf(options.output)).lexically_normal())
+    throw UsageError(
+        fmt::format("--preview: {} lies in the folder of the look's strips, which is "
+                    "made anew; choose another folder",
+                    options.preview));
+}
+
 void makeLook(const NewOptions& options, Console& console) {
   requireSuffix(options.output, ".toml", "--output");
-  if (!options.preview.empty() && formatOf(options.preview, "--preview").isExr())
-    throw UsageError("--preview: previews are display-ready, and EXRs are scene-linear");
+  checkPreview(options);
   const LookPreset& preset = lookPreset(options.preset);
   refuseOverwriting(options);
   const Look given = readLookText("", options.output, options.overrides);
@@ -168,6 +180,7 @@ void makeLook(const NewOptions& options, Console& console) {
   const fs::path folder = stripFolderOf(options.output);
   const DraftLook draft = draftLook(preset, frame, folder.filename().string());
   const std::string text = writeOverrides(draft.text, options.output, options.overrides).text;
+  if (!options.preview.empty()) makeFolders(fs::absolute(options.preview).parent_path());
   NewFolder strips(folder);
   paintStrips(draft.strips, strips.path());
   strips.moveIn();

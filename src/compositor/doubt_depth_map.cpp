@@ -20,8 +20,9 @@ std::vector<std::string> doubtDepthMaps(const FramePlan& plan, const FramePlanes
     if (found.contradicts())
       doubts.push_back(fmt::format(
           "the depth map of light {} ({}) does not fit its masks: it hides {} of {} places that "
-          "they hide and shows {} of {} that they show, as the map of another light or frame would; "
-          "the masks are believed",
+          "they hide and shows {} of {} that they show, as the map of another light or frame "
+          "would; "
+          "export both together, or do without it by light_shape.depth_map = false",
           light.name, light.depthMap->file.string(), found.hiddenInMap, found.hidden,
           found.litInMap, found.lit));
   }

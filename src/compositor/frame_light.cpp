@@ -89,6 +89,12 @@ void weigh(const SidecarLight& source, const WholeShot* shot, const LightLook* s
       weighLight(source, shot, light.light, moved, settings ? settings->light.weight : -1.0f);
 }
 
+/// Whether a depth map is there to help masks, and may.
+bool helps(const std::optional<LightDepthMap>& map, const LightShapeParams& params) {
+  std::error_code unknown;
+  return map && params.depthMap && std::filesystem::exists(map->file, unknown);
+}
+
 ShadowMethod arrangementMethod(MaskArrangement arrangement, bool hasDepthMap) {
   switch (arrangement) {
     case MaskArrangement::pair:
@@ -150,8 +156,8 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, const Whole
     return light;
   }
   if (light.method == ShadowMethod::automatic) {
-    light.method = source.masks
-                       ? arrangementMethod(source.masks->arrangement, source.depthMap.has_value())
+    light.method = source.masks                  ? arrangementMethod(source.masks->arrangement,
+                                                                     helps(source.depthMap, light.passes.lightShape))
                    : !source.tracedLayer.empty() ? ShadowMethod::traced
                    : source.depthMap             ? ShadowMethod::pcf
                    : hasCasters                  ? casterMethod(light.light.radius)

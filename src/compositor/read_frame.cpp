@@ -93,16 +93,19 @@ Floats readDepthMap(const DepthMapSource& source) {
 
 /// Empty where the method wants none, and, with a warning, where it would only help and is gone.
 Floats depthMapOf(const FrameLight& light, std::vector<std::string>& warnings) {
-  if (!light.readsDepthMap) return {};
+  const bool pair =
+      light.method == ShadowMethod::pair && light.depthMap && light.passes.lightShape.depthMap;
+  if (!light.readsDepthMap && !pair) return {};
   std::error_code unknown;
   if (!entryOf(light.method).needs.depthMap &&
       !std::filesystem::exists(light.depthMap->file, unknown)) {
     warnings.push_back(
-        fmt::format("the depth map of light {} does not exist, so its masks alone make its shadow; "
-                    "keep it beside the frame, or set light_shape.depth_map = false",
-                    light.name));
+        fmt::format("the depth map {} of light {} does not exist, so its masks alone make its "
+                    "shadow; keep it beside the frame, or set light_shape.depth_map = false",
+                    light.depthMap->file.string(), light.name));
     return {};
   }
+  if (!light.readsDepthMap) return {};
   return readDepthMap(*light.depthMap);
 }
 

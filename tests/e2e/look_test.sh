@@ -42,6 +42,12 @@ check "the same frame gives another look" cmp -s "$work/again/oil.toml" "$work/l
 echo mine >"$work/mine.toml"
 refused 2 "is there already" "$kagefude" look new "$frame" -o "$work/mine.toml" --preset cel
 check "the look was touched" [ "$(cat "$work/mine.toml")" = mine ]
+echo mine >"$work/mine.png"
+refused 2 "mine.png is there already" "$kagefude" look new "$frame" -o "$work/none.toml" --preset cel --preview "$work/mine.png"
+check "the picture was touched" [ "$(cat "$work/mine.png")" = mine ]
+rm "$work/mine.png"
+refused 2 "folder of the look's strips" "$kagefude" look new "$frame" -o "$work/none.toml" --preset cel \
+  --preview "$work/none_strips/a.png"
 mkdir "$work/strips_only_strips"
 refused 2 "is there already" "$kagefude" look new "$frame" -o "$work/strips_only.toml" --preset cel
 echo kept >"$work/looks/cel_strips/own.txt"
@@ -50,6 +56,7 @@ check "--force takes others' files away" [ "$(cat "$work/looks/cel_strips/own.tx
 refused 1 "cannot be read" "$kagefude" look new "$work/none.exr" -o "$work/none.toml" --preset cel
 refused 2 "preset" "$kagefude" look new "$frame" -o "$work/none.toml" --preset acrylic
 refused 2 "no key contrst" "$kagefude" look new "$frame" -o "$work/none.toml" --preset cel --set brush.contrst=1
+check "--preview makes no folder" quiet "$kagefude" look new "$frame" -o "$work/deep.toml" --preset cel --preview "$work/a/b/c.png"
 check "something was left" [ -z "$(find "$work" -name 'none*' -o -name '.*.new' -o -name '.*.tmp')" ]
 check "--set fails" quiet "$kagefude" look new "$frame" -o "$work/set.toml" --preset oil --set brush.contrast=0.5
 check "--set is not in the look" grep -q "^contrast = 0.5" "$work/set.toml"

@@ -14,8 +14,8 @@ struct MapAgreement {
   size_t hidden = 0, hiddenInMap = 0;
   size_t lit = 0, litInMap = 0;
 
-  /// The map tells lit from hidden hardly better than chance would: its shares of both, less 1, are
-  /// below a quarter. Of fewer than 64 pixels of either kind nothing is known.
+  /// The map hides less than 0.4 of what the masks hide, or shows less than 0.95 of what they show.
+  /// Of fewer than 64 pixels of either kind nothing is known.
   bool contradicts() const;
 };
 
