@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "base/error.h"
 #include "base/glob.h"
 
@@ -20,10 +22,14 @@ std::vector<LightStrip> lightStripsOf(const StyleParams& style) {
 }
 
 void checkLightStrips(const StyleParams& style) {
-  for (const std::string& entry : style.lightStrips)
+  std::set<std::string> lights;
+  for (const std::string& entry : style.lightStrips) {
     if (entry.find('=') == std::string::npos || entry.front() == '=')
       throw LookError(fmt::format(
-          "style.light_strips wants LIGHT=STRIP, such as Rim=strips/rim.png, not {}", entry));
+          "style.light_strips wants LIGHT=STRIP, such as Rim=strips/rim.png, not \"{}\"", entry));
+    if (const std::string light = lightStripFrom(entry).light; !lights.insert(light).second)
+      throw LookError(fmt::format("style.light_strips gives light {} two strips", light));
+  }
 }
 
 std::string stripOfLight(const Look& look, const StyleParams& style, const std::string& light) {

@@ -17,7 +17,7 @@ struct LightStrip {
 LightStrip lightStripFrom(const std::string& entry);
 std::vector<LightStrip> lightStripsOf(const StyleParams& style);
 
-/// Throws LookError where an entry lacks its light or its "=".
+/// Throws LookError where an entry lacks its light or its "=", or has the light of another.
 void checkLightStrips(const StyleParams& style);
 
 /// The strip of its own that a light is painted with on a style's surfaces: of the style's entries

@@ -112,6 +112,9 @@ TEST_F(LightsOfTheirOwn, WrongEntriesAreRefused) {
                 .find("gives Rm a strip, which is no light of the frame (did you mean Rim?)"),
             std::string::npos)
       << frame.errorOf(style("light_strips = [\"Rm=rim.exr\"]\n"));
+  EXPECT_NE(frame.errorOf(style("light_strips = [\"Rim=rim.exr\", \"Rim=even.exr\"]\n"))
+                .find("gives light Rim two strips"),
+            std::string::npos);
   EXPECT_NE(frame.errorOf(style("light_strips = [\"Rim=none.exr\"]\n")).find("does not exist"),
             std::string::npos);
 }
