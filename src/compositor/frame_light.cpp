@@ -8,6 +8,7 @@
 #include "base/frame_pattern.h"
 #include "base/glob.h"
 #include "base/nearest_name.h"
+#include "compositor/automatic_method.h"
 #include "frame/frame_camera.h"
 
 namespace kagefude {
@@ -89,36 +90,10 @@ void weigh(const SidecarLight& source, const WholeShot* shot, const LightLook* s
       weighLight(source, shot, light.light, moved, settings ? settings->light.weight : -1.0f);
 }
 
-/// Whether a depth map is there to help masks, and may.
-bool helps(const std::optional<LightDepthMap>& map, const LightShapeParams& params) {
-  std::error_code unknown;
-  return map && params.depthMap && std::filesystem::exists(map->file, unknown);
-}
-
-ShadowMethod arrangementMethod(MaskArrangement arrangement, bool hasDepthMap) {
-  switch (arrangement) {
-    case MaskArrangement::pair:
-      return hasDepthMap ? ShadowMethod::pairDepth : ShadowMethod::pair;
-    case MaskArrangement::line:
-      return ShadowMethod::line;
-    case MaskArrangement::disc:
-    case MaskArrangement::grid:
-      return ShadowMethod::disc;
-    case MaskArrangement::hard:
-      return ShadowMethod::hard;
-  }
-  return ShadowMethod::none;
-}
-
 bool needsMasks(ShadowMethod method) { return entryOf(method).needs.masks.fewest > 0; }
 
 V3f vectorFrom(const std::vector<float>& numbers, const V3f& otherwise) {
   return numbers.empty() ? otherwise : V3f(numbers[0], numbers[1], numbers[2]);
-}
-
-/// Soft where the light has a size, else hard.
-ShadowMethod casterMethod(float radius) {
-  return radius > 0.0f ? ShadowMethod::places : ShadowMethod::coverage;
 }
 
 /// Lays the look's own place and size over a light; then masks and depth map no longer fit it.
@@ -155,14 +130,9 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, const Whole
     if (light.method == ShadowMethod::automatic) light.method = casterMethod(light.light.radius);
     return light;
   }
-  if (light.method == ShadowMethod::automatic) {
-    light.method = source.masks                  ? arrangementMethod(source.masks->arrangement,
-                                                                     helps(source.depthMap, light.passes.lightShape))
-                   : !source.tracedLayer.empty() ? ShadowMethod::traced
-                   : source.depthMap             ? ShadowMethod::pcf
-                   : hasCasters                  ? casterMethod(light.light.radius)
-                                                 : ShadowMethod::none;
-  }
+  if (light.method == ShadowMethod::automatic)
+    light.method =
+        automaticMethod(source, light.passes.lightShape.depthMap, hasCasters, light.light.radius);
   if (entryOf(light.method).needs.traced) light.tracedChannel = source.tracedLayer;
   if (source.depthMap)
     light.depthMap = {source.depthMap->file, source.depthMap->channel,
@@ -201,14 +171,6 @@ std::vector<V2f> placesFrom(const LightParams& params) {
   return places;
 }
 
-ShadowMethod methodFor(const LightParams& params, bool hasCasters) {
-  if (params.masks.size() == 2)
-    return params.depthMap.empty() ? ShadowMethod::pair : ShadowMethod::pairDepth;
-  if (params.masks.size() > 2) return ShadowMethod::disc;
-  if (!params.depthMap.empty()) return ShadowMethod::pcf;
-  return hasCasters ? casterMethod(params.radius) : ShadowMethod::none;
-}
-
 FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool hasCasters) {
   const LightParams& params = settings.light;
   FrameLight light;
@@ -219,7 +181,7 @@ FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool
   light.light.radius = params.radius;
   light.weight = weighOwnLight(params.weight);
   applySettings(look, &settings, light);
-  if (light.method == ShadowMethod::automatic) light.method = methodFor(params, hasCasters);
+  if (light.method == ShadowMethod::automatic) light.method = automaticMethod(params, hasCasters);
   if (needsMasks(light.method)) {
     light.maskChannels = params.masks;
     light.places = placesFrom(params);
