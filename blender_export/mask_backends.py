@@ -40,6 +40,8 @@ class MaskBackends:
         by = self.wanted
         if by == "auto":
             by = "raycast" if compat.has_raycast_node() else "layers"
+        if by not in RAYS and not compat.has_raycast_node():
+            self._steady_sampler()
         problem = self._problem(by, light)
         if not problem:
             return by
@@ -63,14 +65,23 @@ class MaskBackends:
             for item in self.objects:
                 compat.hide_from_raycast(item, not item.visible_shadow)
             return None
-        turn = sampler_probe.measure_turn()
-        if turn is None:
+        if not self._steady_sampler():
             return mask_obstacles.Obstacle("this Blender's Ambient Occlusion node cannot be aimed",
                                            False)
-        self._turn = turn
-        sampler_probe.steady_sampler(self.data.scene, turn.seed)
-        self._ask = sight_nodes.ask_occlusion(turn)
+        self._ask = sight_nodes.ask_occlusion(self._turn)
         return None
+
+    def _steady_sampler(self):
+        """Let every pixel's one sample be alike; whether that could be had.
+
+        The Ambient Occlusion node is aimed by it, and what is half see-through is taken or left as
+        a whole instead of pixel by pixel.
+        """
+        if self._turn is None:
+            self._turn = sampler_probe.measure_turn()
+            if self._turn is not None:
+                sampler_probe.steady_sampler(self.data.scene, self._turn.seed)
+        return self._turn is not None
 
     def _shared_sight(self):
         if self._sight is None:

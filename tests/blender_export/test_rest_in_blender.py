@@ -100,8 +100,12 @@ class Rest(BlenderCase):
             self.assertEqual(len({one for *_, one in self.places(objects[name], pixels)}), 1)
 
     def test_what_is_seen_through_a_ghost_rests_as_it_does_elsewhere_or_says_nothing(self):
-        self.export(self.build(SEEN_THROUGH + GHOST), "--frames", "1", "--masks", "disc:5")
-        pixels = self.pixels(1)
+        shot = self.build(SEEN_THROUGH + GHOST)
+        for by in ("auto", "layers"):
+            self.export(shot, "--frames", "1", "--masks", "disc:5", "--masks-by", by)
+            self.check_seen_through_a_ghost(self.pixels(1))
+
+    def check_seen_through_a_ghost(self, pixels):
         objects = {item["name"]: item["index"] for item in self.document(1)["objects"]}
         picks = blender_says("bpy.app.version >= (5, 0, 0)")
         for name, move in (("Ground", (0, 0, 0)), ("Rising", (0, 0, 0.5)), ("Leaf", (0, -1.5, 1))):
