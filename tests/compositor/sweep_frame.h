@@ -25,6 +25,7 @@ class SweepFrame {
     frame.addObject("Ground", 2, {-4, -3, 0}, {4, 3, 0.01f});
     frame.sidecar["objects"][1]["flat"] = true;
     frame.addObject("Rise", 3, {-4, -3, -0.3f}, {4, 3, 2.4f});
+    frame.sidecar["world"] = {{"radiance", {0.3, 0.3, 0.3}}};
     frame.sidecar["camera"]["type"] = "orthographic";
     frame.sidecar["camera"]["clip_from_camera"] = {
         {0.25, 0, 0, 0}, {0, 1.0 / 3, 0, 0}, {0, 0, -0.02, -1}, {0, 0, 0, 1}};
@@ -54,6 +55,7 @@ class SweepFrame {
     frame.plane("UV.V")(x, y) = float(y + 1) / height;
     for (const char* name : {"DiffCol.R", "DiffCol.G", "DiffCol.B"})
       frame.plane(name)(x, y) = 0.25f + 0.5f * float(x) / width;
+    for (const char* name : {"Emit.R", "Emit.G", "Emit.B"}) frame.plane(name)(x, y) = 0.02f;
   }
 
   void writeDepthMap() const {
