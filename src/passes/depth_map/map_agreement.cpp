@@ -11,7 +11,7 @@
 namespace kagefude {
 namespace {
 
-constexpr double places = 16384;
+constexpr double places = 4096;
 constexpr float leastFacing = 0.2f;  ///< cosine between the normal and the way to the light
 constexpr float tolerance = 4;       ///< texel widths on the surface
 constexpr size_t enough = 64;        ///< pixels of a kind

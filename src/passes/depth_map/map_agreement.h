@@ -19,7 +19,7 @@ struct MapAgreement {
   bool contradicts() const;
 };
 
-/// Counts over some 16,000 places at even distances on the frame. Only places that face the light
+/// Counts over some 4,000 places at even distances on the frame. Only places that face the light
 /// by a cosine of 0.2 count, for masks at grazing light tell of the surface's own horizon. Hidden
 /// in the map: its texel is nearer to the light than the place by more than four texel widths on
 /// the surface. position, normal: world. labels: 0 = background. masks: 0 = hidden. A map whose
