@@ -26,9 +26,12 @@ struct Colour::State {
   // The processor that `make` returns; a broken one (a missing LUT) is an InputError.
   template <class Make>
   ocio::ConstCPUProcessorRcPtr processor(const Make& make) const;
-  // Applies it.
-  template <class Make>
-  void apply(const Make& make, View<float> red, View<float> green, View<float> blue) const;
+  // From the working space to a display, seen through a view.
+  ocio::ConstCPUProcessorRcPtr displayProcessor(
+      const std::pair<std::string, std::string>& shown) const;
+  // Applies a processor.
+  void apply(const ocio::ConstCPUProcessorRcPtr& cpu, View<float> red, View<float> green,
+             View<float> blue) const;
 
   /// OCIO fills its list of displays when first asked, and makes processors, without minding other
   /// threads that ask as well.
@@ -83,10 +86,16 @@ ocio::ConstCPUProcessorRcPtr Colour::State::processor(const Make& make) const {
   }
 }
 
-template <class Make>
-void Colour::State::apply(const Make& make, View<float> red, View<float> green,
-                          View<float> blue) const {
-  const ocio::ConstCPUProcessorRcPtr cpu = processor(make);
+ocio::ConstCPUProcessorRcPtr Colour::State::displayProcessor(
+    const std::pair<std::string, std::string>& shown) const {
+  return processor([&] {
+    return config->getProcessor(ocio::ROLE_SCENE_LINEAR, shown.first.c_str(), shown.second.c_str(),
+                                ocio::TRANSFORM_DIR_FORWARD);
+  });
+}
+
+void Colour::State::apply(const ocio::ConstCPUProcessorRcPtr& cpu, View<float> red,
+                          View<float> green, View<float> blue) const {
   if (cpu->isNoOp()) return;
   parallelRows(red.height, [&](int first, int end) {
     ocio::PlanarImageDesc rows(red.row(first), green.row(first), blue.row(first), nullptr,
@@ -123,7 +132,7 @@ void Colour::toWorking(View<float> red, View<float> green, View<float> blue,
   const auto make = [&] {
     return state_->config->getProcessor(from.c_str(), ocio::ROLE_SCENE_LINEAR);
   };
-  state_->apply(make, red, green, blue);
+  state_->apply(state_->processor(make), red, green, blue);
 }
 
 void Colour::fromWorking(View<float> red, View<float> green, View<float> blue,
@@ -132,7 +141,7 @@ void Colour::fromWorking(View<float> red, View<float> green, View<float> blue,
   const auto make = [&] {
     return state_->config->getProcessor(ocio::ROLE_SCENE_LINEAR, to.c_str());
   };
-  state_->apply(make, red, green, blue);
+  state_->apply(state_->processor(make), red, green, blue);
 }
 
 std::pair<std::string, std::string> Colour::shownThrough(std::string_view display,
@@ -149,23 +158,11 @@ std::pair<std::string, std::string> Colour::shownThrough(std::string_view displa
 
 void Colour::toDisplay(View<float> red, View<float> green, View<float> blue,
                        std::string_view display, std::string_view view) const {
-  const auto& config = state_->config;
-  const auto [shownOn, seenAs] = shownThrough(display, view);
-  const auto make = [&, &shownOn = shownOn, &seenAs = seenAs] {
-    return config->getProcessor(ocio::ROLE_SCENE_LINEAR, shownOn.c_str(), seenAs.c_str(),
-                                ocio::TRANSFORM_DIR_FORWARD);
-  };
-  state_->apply(make, red, green, blue);
+  state_->apply(state_->displayProcessor(shownThrough(display, view)), red, green, blue);
 }
 
 bool Colour::mixesChannels(std::string_view display, std::string_view view) const {
-  const auto [shownOn, seenAs] = shownThrough(display, view);
-  return state_
-      ->processor([&, &shownOn = shownOn, &seenAs = seenAs] {
-        return state_->config->getProcessor(ocio::ROLE_SCENE_LINEAR, shownOn.c_str(),
-                                            seenAs.c_str(), ocio::TRANSFORM_DIR_FORWARD);
-      })
-      ->hasChannelCrosstalk();
+  return state_->displayProcessor(shownThrough(display, view))->hasChannelCrosstalk();
 }
 
 std::string Colour::displaySpace(std::string_view display, std::string_view view) const {
@@ -190,13 +187,7 @@ std::string Colour::toWorkingId(std::string_view fromSpace) const {
 }
 
 std::string Colour::toDisplayId(std::string_view display, std::string_view view) const {
-  const auto [shownOn, seenAs] = shownThrough(display, view);
-  return state_
-      ->processor([&, &shownOn = shownOn, &seenAs = seenAs] {
-        return state_->config->getProcessor(ocio::ROLE_SCENE_LINEAR, shownOn.c_str(),
-                                            seenAs.c_str(), ocio::TRANSFORM_DIR_FORWARD);
-      })
-      ->getCacheID();
+  return state_->displayProcessor(shownThrough(display, view))->getCacheID();
 }
 
 std::string Colour::workingSpace() const {

@@ -40,9 +40,9 @@ ShadowMethod automaticMethod(const SidecarLight& source, bool mapHelps, bool has
   return hasCasters ? casterMethod(radius) : ShadowMethod::none;
 }
 
-ShadowMethod automaticMethod(const LightParams& params, bool hasCasters) {
+ShadowMethod automaticMethod(const LightParams& params, bool mapHelps, bool hasCasters) {
   if (params.masks.size() == 2)
-    return params.depthMap.empty() ? ShadowMethod::pair : ShadowMethod::pairDepth;
+    return mapHelps && !params.depthMap.empty() ? ShadowMethod::pairDepth : ShadowMethod::pair;
   if (params.masks.size() > 2) return ShadowMethod::disc;
   if (!params.depthMap.empty()) return ShadowMethod::pcf;
   return hasCasters ? casterMethod(params.radius) : ShadowMethod::none;

@@ -14,7 +14,7 @@ ShadowMethod casterMethod(float radius);
 ShadowMethod automaticMethod(const SidecarLight& source, bool mapHelps, bool hasCasters,
                              float radius);
 
-/// The same for a light that only the look describes.
-ShadowMethod automaticMethod(const LightParams& params, bool hasCasters);
+/// The same for a light that only the look describes; a map that it names must be there.
+ShadowMethod automaticMethod(const LightParams& params, bool mapHelps, bool hasCasters);
 
 }  // namespace kagefude

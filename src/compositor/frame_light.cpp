@@ -181,7 +181,8 @@ FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool
   light.light.radius = params.radius;
   light.weight = weighOwnLight(params.weight);
   applySettings(look, &settings, light);
-  if (light.method == ShadowMethod::automatic) light.method = automaticMethod(params, hasCasters);
+  if (light.method == ShadowMethod::automatic)
+    light.method = automaticMethod(params, light.passes.lightShape.depthMap, hasCasters);
   if (needsMasks(light.method)) {
     light.maskChannels = params.masks;
     light.places = placesFrom(params);

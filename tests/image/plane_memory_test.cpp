@@ -29,28 +29,22 @@ size_t residentBytes() {
 /// A plane of that many mebibytes, every page of it touched.
 Bytes touched(int size) { return Bytes(1024, 1024 * size, uint8_t{1}); }
 
-TEST(PlaneMemory, ALargePlanesMemoryGoesToTheNextOfItsSize) {
-  releaseKeptPlaneMemory();
-  const uint8_t* first = nullptr;
-  {
-    // Both at once, so that keeping the first beside another of the second's size adds nothing.
-    const Bytes plane(3000, 3000), beside(4000, 3000);
-    first = plane.row(0);
+TEST(PlaneMemory, APlanesMemoryGoesToTheNextOfItsSize) {
+  struct Sizes {
+    int width, height, otherWidth, otherHeight;
+  };
+  for (const Sizes& size : {Sizes{3000, 3000, 4000, 3000}, Sizes{1024, 576, 1024, 700}}) {
+    releaseKeptPlaneMemory();
+    const uint8_t* first = nullptr;
+    {
+      // Both at once, so that keeping the first beside another of the second's size adds nothing.
+      const Bytes plane(size.width, size.height), beside(size.otherWidth, size.otherHeight);
+      first = plane.row(0);
+    }
+    const Bytes other(size.otherWidth, size.otherHeight), same(size.width, size.height);
+    EXPECT_EQ(same.row(0), first);
+    EXPECT_NE(other.row(0), first);
   }
-  const Bytes other(4000, 3000), same(3000, 3000);
-  EXPECT_EQ(same.row(0), first);
-  EXPECT_NE(other.row(0), first);
-}
-
-TEST(PlaneMemory, SoDoesThatOfAPlaneAsLargeAsASmallFrames) {
-  releaseKeptPlaneMemory();
-  const uint8_t* first = nullptr;
-  {
-    const Bytes plane(1024, 576), beside(1024, 700);
-    first = plane.row(0);
-  }
-  const Bytes other(1024, 700), same(1024, 576);
-  EXPECT_EQ(same.row(0), first);
 }
 
 TEST(PlaneMemory, WhatIsKeptNeverAddsToTheMostThatWasUsed) {

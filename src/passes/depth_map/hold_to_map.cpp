@@ -21,8 +21,8 @@ constexpr float refuted = 1.0f / 3.0f;  ///< share of contradicting masks from w
 constexpr float worth = 20;        ///< masks, where both say the same
 constexpr float worthGrazing = 5;  ///< masks
 constexpr float apart = 0.25f;     ///< visibilities that far apart are not the same
-constexpr float grazes = 0.4f,
-                faces = 0.7f;  ///< cosines between the normal and the way to the light
+constexpr float grazes = 0.4f;     ///< cosine between the normal and the way to the light
+constexpr float faces = 0.7f;      ///< from here on it does not
 
 constexpr float alone = 1.3f;         ///< of a pixel by itself: a tenth of its masks may contradict
 constexpr float mostInUmbra = 0.08f;  ///< of a light that no mask sees, between the masks' places
