@@ -18,8 +18,9 @@ struct Scene {
   Floats ownR, ownG, ownB, ownA;
   Plane<uint16_t> things{width, height};
   Floats distance{width, height}, grain{width, height, 0.0f};
-  Labels ids;
-  Floats share;
+  Labels ids, otherIds;
+  Floats share, otherShare;
+  float metBeyond = 0;  ///< of the left thing's paint, in the first column beyond it
   std::vector<PaintedEdgeParams> params = std::vector<PaintedEdgeParams>(2);
 
   explicit Scene(uint16_t right, float left = 0.8f, float other = 0.2f) {
@@ -40,6 +41,10 @@ struct Scene {
     ownA = a.clone();
     std::vector<CoverageRank> ranks;
     if (!ids.empty()) ranks.push_back({ids, share});
+    if (!otherIds.empty()) ranks.push_back({otherIds, otherShare});
+    for (Floats* plane : {&r, &g, &b, &a})
+      for (int y = 0; y < height; ++y)
+        (*plane)(border, y) += ((*plane)(border - 1, y) - (*plane)(border, y)) * metBeyond;
     const std::vector<uint32_t> own{1, 2};
     EdgePaint in{{ownR, ownG, ownB, ownA}, things, params};
     in.distance = distance;
@@ -175,17 +180,120 @@ TEST(PaintedEdges, WhereOneThingStandsOnAnotherTheSmallerIsInFrontAllAlong) {
   }
 }
 
-TEST(PaintedEdges, DryPaintIsLeftOutInHollowsTowardsTheEdgeAlone) {
+TEST(PaintedEdges, AMovedSlantedBorderHasNoStairs) {
+  // Things are told by pixels' centres alone. The border falls by a pixel in four; moved by two it
+  // is as straight, and covers of each pixel what lies before it.
+  for (const float side : {1.0f, -1.0f}) {
+    Scene scene(0);
+    const float length = std::sqrt(1.0f + 0.0625f);
+    const auto inside = [&](int x, int y) {
+      return (float(border) - 0.5f - float(x) + 0.25f * float(y - 4)) / length;
+    };
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const bool first = inside(x, y) > 0.0f;
+        scene.things(x, y) = first ? 1 : 0;
+        scene.r(x, y) = first ? 0.8f : 0.0f;
+        scene.a(x, y) = first ? 1.0f : 0.0f;
+        scene.grain(x, y) = 1.5f * side;
+      }
+    scene.params[0].rough = 2;
+    scene.paint();
+    // Rows whose windows are cut by the frame bend.
+    for (int y = 2; y < height - 2; ++y)
+      for (int x = border - 8; x < border + 8; ++x) {
+        const float moved = inside(x, y) + 2.0f * side;
+        const float share = std::min(std::max(moved / 1.3f + 0.5f, 0.0f), 1.0f);
+        EXPECT_NEAR(scene.a(x, y), share, 0.15f) << side << " at " << x << " " << y;
+      }
+  }
+}
+
+TEST(PaintedEdges, ABrokenBorderBendsAsALineWhateverItsGrain) {
+  Scene scene(0);
+  scene.params[0].rough = 4;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) scene.grain(x, y) = (x * 7 + y * 13) % 5 < 2 ? 1.5f : -1.5f;
+  scene.paint();
+  const auto painted = [&](int y) {
+    float sum = 0;
+    for (int x = 0; x < width; ++x) sum += scene.a(x, y);
+    return sum;
+  };
+  float moved = 0;
+  for (int y = 0; y < height; ++y) {
+    moved = std::max(moved, std::fabs(painted(y) - border));
+    if (y > 0) {
+      EXPECT_LT(std::fabs(painted(y) - painted(y - 1)), 1.5f) << "row " << y;
+    }
+  }
+  EXPECT_GT(moved, 0.3f);
+}
+
+TEST(PaintedEdges, AThinThingKeepsItsMiddle) {
+  // Nothing is taken of two pixels. Of eight the fourth from the border is 3.5 from it: half of
+  // that on both sides.
+  for (const int wide : {2, 8}) {
+    Scene scene(0);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const bool first = x >= border && x < border + wide;
+        scene.things(x, y) = first ? 1 : 0;
+        scene.r(x, y) = first ? 0.8f : 0.0f;
+        scene.a(x, y) = first ? 1.0f : 0.0f;
+        scene.grain(x, y) = -3.0f;
+      }
+    scene.params[0].rough = 6;
+    scene.paint();
+    for (int y = 0; y < height; ++y) {
+      float painted = 0;
+      for (int x = 0; x < width; ++x) painted += scene.a(x, y);
+      EXPECT_NEAR(painted, wide == 2 ? 2.0f : 8.0f - 3.5f, 0.15f) << wide << " row " << y;
+    }
+  }
+}
+
+TEST(PaintedEdges, DryPaintIsLeftOutWhereStrokesAlongTheEdgeAreThin) {
+  // Thin strokes above, full ones below, among them one hollow pixel.
   Scene scene(0);
   scene.params[0].dry = 1;
-  scene.params[0].dryWidth = 6;
+  scene.params[0].dryWidth = 4;
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) scene.grain(x, y) = y == 2 ? -3.0f : 3.0f;
+    for (int x = 0; x < width; ++x) scene.grain(x, y) = y < 4 ? -3.0f : 3.0f;
+  scene.grain(border - 1, 8) = -3.0f;
   scene.paint();
-  EXPECT_EQ(scene.a(border - 1, 2), 0.0f);
-  EXPECT_EQ(scene.r(border - 1, 2), 0.0f);
+  EXPECT_EQ(scene.a(border - 1, 0), 0.0f);
+  EXPECT_EQ(scene.r(border - 1, 0), 0.0f);
   EXPECT_EQ(scene.a(border - 1, 6), 1.0f);
-  EXPECT_EQ(scene.a(border - 7, 2), 1.0f);
+  EXPECT_EQ(scene.a(border - 1, 8), 1.0f) << "a hollow in full strokes is no gap";
+  EXPECT_EQ(scene.a(border - 8, 0), 1.0f) << "away from the edge";
+}
+
+TEST(PaintedEdges, ADryGapEndsWithTheThingAndLeavesNoLineRoundIt) {
+  // The thing covers a quarter of the column beyond its last pixel.
+  Scene scene(0), beside(2);
+  for (Scene* both : {&scene, &beside}) {
+    both->params[0].dry = 1;
+    std::fill_n(both->grain.row(0), width * height, -3.0f);
+    both->metBeyond = 0.25f;
+    both->ids = Labels(width, height, 1u);
+    both->otherIds = Labels(width, height, both == &scene ? 0u : 2u);
+    both->share = Floats(width, height);
+    both->otherShare = Floats(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        both->share(x, y) = x < border ? 1.0f : x == border ? 0.25f : 0.0f;
+        both->otherShare(x, y) = 1.0f - both->share(x, y);
+      }
+  }
+  scene.paint();
+  for (int x = border - 2; x < width; ++x) EXPECT_EQ(scene.a(x, 4), 0.0f) << x;
+  beside.paint();
+  // What stands behind keeps its own paint, in its own share.
+  EXPECT_NEAR(beside.a(border - 1, 4), 0.0f, 1e-5f);
+  EXPECT_NEAR(beside.a(border, 4), 0.75f, 1e-5f);
+  EXPECT_NEAR(beside.r(border, 4), 0.75f * 0.2f, 1e-5f);
+  EXPECT_EQ(beside.a(border + 1, 4), 1.0f);
 }
 
 TEST(PaintedEdges, EdgesAreLostWhereTonesMeetAndKeptWhereTheyDoNot) {
