@@ -91,7 +91,7 @@ BorderSite BorderSites::siteAt(int x, int y) const {
   site.grain = meanGrain(at, front.rough);
   const float enough = 2.0f + 2.0f * front.rough * (1.0f + std::fabs(front.overrun)) + front.lost;
   site.half = halfThickness(site, site.inFront, enough);
-  site.behind = halfThickness(site, !site.inFront, 3.0f);
+  site.behind = halfThickness(site, !site.inFront, enough);
   if (front.lost > 0.0f) site.melted = lostShare(site, front);
   return site;
 }

@@ -15,7 +15,7 @@ struct BorderSite {
   float grain = 0;           ///< of the strokes in front, as coarse as the border is moved
   float slope = 0;           ///< its change along the border, (outY, -outX), by a pixel
   float half = 0;    ///< half of the thickness of the thing in front, pixels, as far as it matters
-  float behind = 0;  ///< of the one behind, of 3
+  float behind = 0;  ///< of the one behind
   float melted = 0;  ///< how far the border is lost, 0..1
 };
 

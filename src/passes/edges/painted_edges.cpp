@@ -68,9 +68,13 @@ class EdgePainter {
 
     const float ownGap = site->inFront ? gap : 0.0f, otherGap = gap - ownGap;
     const Rgba still = pooled(met(x, y, paint), rimOwn) * (1.0f - ownGap);
-    const float melt = std::min(front.lost * site->melted, 2.0f * site->half);
-    const float width = slanted(most * site->slope) + 0.15f * most + melt;
-    const float share = std::clamp(inside / width + 0.5f, 0.0f, 1.0f);
+    // Where an edge is lost, strokes of both sides reach into each other.
+    const float melt =
+        std::min(front.lost * site->melted, 2.0f * std::min(site->half, site->behind));
+    const float reached = 0.25f * melt * held(0.7f * in_.grain(frontAt.x, frontAt.y));
+    const float width = slanted(most * site->slope) + 0.15f * most + 0.5f * melt;
+    const float share =
+        std::clamp((inside + (site->inFront ? reached : -reached)) / width + 0.5f, 0.0f, 1.0f);
     if (!meets || (share >= 1.0f && at.inside > 1.0f)) return set(still, x, y, paint);
     const Rgba here = pooled(paintAt(in_.own, x, y), rimOwn);
     const float rimOther = site->inFront ? 1.0f : rimDensity(other, -inside, site->melted, grain);
