@@ -9,6 +9,9 @@ namespace kagefude {
 
 /// Lists up to this length are tested pixel by pixel at once rather than cut down further.
 inline constexpr int shortList = 48;
+/// A rectangle's quarters descend the tree anew rather than read a list that is longer than this:
+/// where few pixels are shown of much, most of the list is apart from most of them.
+inline constexpr int longList = 128;
 /// Rounding of a point relative to its distance from the eye, with some to spare.
 inline constexpr float roundingBias = 4e-6f;
 
@@ -33,8 +36,8 @@ struct Rect {
   }
 };
 
-/// Descends the tree for a tile and cuts it in four, with ever shorter lists, until a rectangle is
-/// uniform or its list is short.
+/// Descends the tree for a tile, or for its quarters where much is in reach of it, and cuts it in
+/// four, with ever shorter lists, until a rectangle is uniform or its list is short.
 class TileShader {
  public:
   TileShader(const SeenSurface& surface, const ShadowWedges& wedges, const CoverageParams& params)
@@ -52,7 +55,9 @@ class TileShader {
       return;
     }
     const BoxState state = wedges_.gather(box, verdictBias(boxes), list_);
-    if (state == BoxState::touching)
+    if (state == BoxState::touching && list_.count > longList && rect.width() > 1)
+      for (int k = 0; k < 4; ++k) shade(boxes, rect.quarter(k), settle, leaf);
+    else if (state == BoxState::touching)
       refine(boxes, rect, list_, 0, settle, leaf);
     else
       settle(rect, state == BoxState::inside);
