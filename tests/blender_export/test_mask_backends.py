@@ -83,9 +83,20 @@ class MaskBackends(BlenderCase):
                             self.masks(f"{rays()}/s", 2)[0]["mask.Point.0"])
 
     def test_auto_takes_layers_where_there_is_no_raycast_node(self):
-        said = self.export(self.build(SCENE), "--masks", "disc:5", "--light", "Point")
+        said = self.export(self.build(SCENE + """
+for name in ("Rod", "Ball"):
+    bpy.data.objects.remove(bpy.data.objects[name])
+"""), "--masks", "disc:5", "--light", "Point")
         self.assertEqual(self.masks("out/s")[1], {"Point": "raycast" if has_raycast() else "layers"})
         self.assertEqual(self.notes(said), [])
+
+    def test_auto_takes_layers_where_coarse_faces_are_shaded_smooth(self):
+        said = self.export(self.build(SCENE), "--masks", "disc:5", "--light", "Point")
+        self.assertEqual(self.masks("out/s")[1], {"Point": "layers"})
+        self.assertEqual(self.notes(said), [
+            "the masks of light 'Point' are rendered by layers instead of raycast: object 'Ball' has "
+            "coarse faces that are shaded smooth, where rays and lamps see different things"]
+            if has_raycast() else [])
 
     def test_faces_without_a_material_and_bumps_have_the_masks_of_layers(self):
         """Nothing can be put into no material, and a bump turns a normal that no mask may know."""
