@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Paints the strips of the examples with `kagefude strip make`.   examples/make_strips.sh KAGEFUDE DIR
 # Stops are place, red, green, blue in sRGB from the darkest row to the brightest; shadows lean to
-# blue and violet and lights to yellow, as painters mix them.
+# blue and violet and lights to yellow, as painters mix them. Strips of these names in DIR are painted anew.
 set -euo pipefail
 kagefude=$1
 folder=$2
@@ -11,7 +11,7 @@ paint() {  # name preset stops [key=value ...]
   shift 3
   local settings=(--set "stops=[$stops]")
   for setting in "$@"; do settings+=(--set "$setting"); done
-  "$kagefude" strip make "$folder/$name.png" --preset "$preset" "${settings[@]}"
+  "$kagefude" strip make "$folder/$name.png" --preset "$preset" "${settings[@]}" --force
 }
 paint ochre soft "0,0.16,0.13,0.20, 0.3,0.38,0.27,0.28, 0.6,0.72,0.52,0.33, 0.85,0.90,0.73,0.47, 1,0.98,0.88,0.66" jitter=0.055 stroke_width=52 seed=2
 paint wall  soft "0,0.13,0.15,0.24, 0.35,0.26,0.34,0.42, 0.7,0.46,0.57,0.58, 1,0.76,0.82,0.74" jitter=0.055 stroke_width=52 seed=3

@@ -19,4 +19,12 @@ void requireSuffix(const std::filesystem::path& file, std::string_view suffix,
                                option, file.string(), suffix));
 }
 
+void refuseToReplace(const std::filesystem::path& file, std::string_view option) {
+  std::error_code failed;
+  if (std::filesystem::exists(std::filesystem::symlink_status(file, failed)))
+    throw UsageError(
+        fmt::format("{} is there already; another name for {} keeps it, --force writes over it",
+                    file.string(), option));
+}
+
 }  // namespace kagefude

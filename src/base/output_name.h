@@ -11,4 +11,9 @@ namespace kagefude {
 void requireSuffix(const std::filesystem::path& file, std::string_view suffix,
                    std::string_view option);
 
+/// For what people go on to work on by hand (looks, strips): UsageError when there is something
+/// under the name of `file` already, even a link that leads nowhere, with the two ways out.
+/// `option` as above.
+void refuseToReplace(const std::filesystem::path& file, std::string_view option);
+
 }  // namespace kagefude

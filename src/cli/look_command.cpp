@@ -42,14 +42,9 @@ fs::path stripFolderOf(const fs::path& look) {
 /// What the look is made of must not be there yet, for it may be somebody's work.
 void refuseOverwriting(const NewOptions& options) {
   if (options.force) return;
-  for (const fs::path& path :
-       {fs::path(options.output), stripFolderOf(options.output), fs::path(options.preview)}) {
-    std::error_code failed;
-    if (!path.empty() && fs::exists(fs::symlink_status(path, failed)))
-      throw UsageError(
-          fmt::format("{} is there already; another name for {} keeps it, --force writes over it",
-                      path.string(), path == options.preview ? "--preview" : "-o"));
-  }
+  refuseToReplace(options.output, "-o");
+  refuseToReplace(stripFolderOf(options.output), "-o");
+  if (!options.preview.empty()) refuseToReplace(options.preview, "--preview");
 }
 
 /// A folder beside the one that it becomes, which goes with all that is in it unless it is moved.

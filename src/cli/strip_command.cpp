@@ -29,6 +29,7 @@ struct MakeOptions {
   std::string output, preset = "soft", from, palette;
   std::vector<int> patch;
   std::vector<std::string> settings;
+  bool force = false;
 };
 
 /// A file of a palette, or its colours themselves.
@@ -107,6 +108,7 @@ PaintedStrip stripOfPicture(const MakeOptions& options) {
 
 void makeStripFile(const MakeOptions& options, Console& console) {
   requireSuffix(options.output, ".png", "output");
+  if (!options.force) refuseToReplace(options.output, "output");  // it may be painted by hand
   const PaintedStrip strip =
       options.from.empty() ? paintStrip(paramsFrom(options)) : stripOfPicture(options);
   writePng(options.output, strip.r, strip.g, strip.b, {}, 16);
@@ -170,6 +172,7 @@ void addMake(CLI::App& strip, Console& console) {
                    "colours such as #2b1d38,#8a3324,#f2e3c2")
       ->excludes(from);
   command->add_option("--set", options->settings, "key=value, over the preset's own");
+  command->add_flag("--force", options->force, "write over a file that is there");
   command->callback([options, &console] { makeStripFile(*options, console); });
 }
 

@@ -75,6 +75,9 @@ fi
 "$kagefude" sheet --looks "$work/looks" "$frame" -o "$work/sheet.png" 2>/dev/null
 check "the sheet is not three by two" [ "$(oiiotool --info "$work/sheet.png" | grep -o '[0-9]* x *[0-9]*' | head -1 |
   awk '{print ($1 > $3) ? "wide" : "high"}')" = wide ]
+echo mine >"$work/sheet.png"
+check "a sheet is not made anew" quiet "$kagefude" sheet --looks "$work/looks" "$frame" -o "$work/sheet.png"
+check "a sheet is not made anew" quiet oiiotool --info "$work/sheet.png"
 refused 2 "no look" "$kagefude" sheet --looks "$data" "$frame" -o "$work/s.png"
 refused 2 "leave the look out" "$kagefude" sheet --looks "$work/looks" "$work/looks/oil.toml" "$frame" -o "$work/s.png"
 refused 2 "needs a look and a frame" "$kagefude" sheet "$frame" -o "$work/s.png"
@@ -98,6 +101,15 @@ printf 'GIMP Palette\n#\n43 29 56 dark\n242 227 194 light\n138 51 36 mid\n' >"$w
 check "the palette's strip is not fit to paint with" quiet "$kagefude" strip check "$work/palette.png"
 "$kagefude" strip make "$work/colours.png" --palette "#2b1d38,#8a3324,#f2e3c2" --set hue_shift=20 >/dev/null
 check "the same colours give another strip" cmp -s "$work/palette.png" "$work/colours.png"
+echo mine >"$work/mine.png"
+refused 2 "mine.png is there already" "$kagefude" strip make "$work/mine.png"
+refused 2 "mine.png is there already" "$kagefude" strip make "$work/mine.png" --palette "$work/p.gpl"
+check "a strip was written over" [ "$(cat "$work/mine.png")" = mine ]
+ln -s "$work/nowhere.png" "$work/link.png"
+refused 2 "link.png is there already" "$kagefude" strip make "$work/link.png"
+check "strip make --force fails" quiet "$kagefude" strip make "$work/mine.png" --palette "$work/p.gpl" --set hue_shift=20 --force
+check "--force does not write" cmp -s "$work/mine.png" "$work/palette.png"
+rm "$work/mine.png" "$work/link.png"
 printf 'GIMP Palette\n#\n43 29\n' >"$work/bad.gpl"
 refused 1 "line 3" "$kagefude" strip make "$work/x.png" --palette "$work/bad.gpl"
 refused 2 "is no colour" "$kagefude" strip make "$work/x.png" --palette "#12,#345678"

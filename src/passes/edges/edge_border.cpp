@@ -8,7 +8,6 @@
 namespace kagefude {
 namespace {
 
-constexpr int stepX[4] = {1, -1, 0, 0}, stepY[4] = {0, 0, 1, -1};
 constexpr int square = 32;
 
 /// By the numbers' runs along rows.
@@ -38,7 +37,7 @@ bool EdgeBorders::isBorder(uint16_t own, int x, int y) const {
 bool EdgeBorders::isAtBorder(int x, int y) const {
   const uint16_t own = in_.things(x, y);
   for (int k = 0; k < 4; ++k)
-    if (isBorder(own, x + stepX[k], y + stepY[k])) return true;
+    if (isBorder(own, x + sideX[k], y + sideY[k])) return true;
   return false;
 }
 
@@ -63,76 +62,26 @@ Bytes EdgeBorders::borderPixels() const {
   return borders;
 }
 
-/// The pixel of the own thing at the border, from any that is near it.
-bool EdgeBorders::ownPixelNear(int x, int y, PixelAt& at) const {
-  const uint16_t own = in_.things(x, y);
-  if (in_.things(at.x, at.y) == own) return true;
-  int best = 0x7fffffff;
-  PixelAt found = at;
-  for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) {
-      const int qx = at.x + dx, qy = at.y + dy;
-      if (!in_.things.contains(qx, qy) || in_.things(qx, qy) != own || !isAtBorder(qx, qy))
-        continue;
-      const int squared = (qx - x) * (qx - x) + (qy - y) * (qy - y);
-      if (squared < best) {
-        best = squared;
-        found = {qx, qy};
-      }
-    }
-  at = found;
-  return best != 0x7fffffff;
-}
-
-bool EdgeBorders::find(int x, int y, uint32_t nearest, Border& border) const {
-  const int width = in_.things.width;
-  border.own = {static_cast<int>(nearest) % width, static_cast<int>(nearest) / width};
-  if (!ownPixelNear(x, y, border.own)) return false;
-  const uint16_t own = in_.things(x, y);
-  const int wayX = border.own.x - x, wayY = border.own.y - y;
-  int best = -0x7fffffff;
-  for (int k = 0; k < 4; ++k) {
-    const PixelAt other{border.own.x + stepX[k], border.own.y + stepY[k]};
-    if (!isBorder(own, other.x, other.y)) continue;
-    const int ahead = wayX * stepX[k] + wayY * stepY[k];
-    if (ahead <= best) continue;
-    best = ahead;
-    border.other = other;
-  }
-  if (best == -0x7fffffff) return false;
-  const auto dx = static_cast<float>(wayX), dy = static_cast<float>(wayY);
-  border.distance = std::sqrt(dx * dx + dy * dy) + withinPixels(x, y, border);
-  border.inFront = isInFront(border);
-  return true;
-}
-
-/// From the centre of the own pixel at the border to the border itself, by what the thing covers
-/// of the pixels on both sides.
-float EdgeBorders::withinPixels(int x, int y, const Border& border) const {
-  if (in_.coverage.empty()) return 0.5f;
-  const uint16_t own = in_.things(x, y);
-  const uint32_t id = own == 0 || own > in_.coverageIds.size() ? 0u : in_.coverageIds[own - 1u];
-  return std::clamp(covered(id, border.own) + covered(id, border.other) - 0.5f, 0.0f, 1.5f);
-}
-
-float EdgeBorders::covered(uint32_t id, const PixelAt& at) const {
-  float own = 0, named = 0;
+float EdgeBorders::coveredBy(const PixelAt& own, const PixelAt& at) const {
+  const uint16_t thing = in_.things(own.x, own.y);
+  const uint32_t id =
+      thing == 0 || thing > in_.coverageIds.size() ? 0u : in_.coverageIds[thing - 1u];
+  float covered = 0, named = 0;
   for (const CoverageRank& rank : in_.coverage) {
     const float share = rank.coverage(at.x, at.y);
     if (!(share >= smallestShare)) continue;
-    if (rank.id(at.x, at.y) == id) own += share;
+    if (rank.id(at.x, at.y) == id) covered += share;
     if (rank.id(at.x, at.y) != 0) named += share;
   }
-  return std::min(id == 0 ? std::max(1.0f - named, 0.0f) : own, 1.0f);
+  return std::min(id == 0 ? std::max(1.0f - named, 0.0f) : covered, 1.0f);
 }
 
-bool EdgeBorders::isInFront(const Border& border) const {
-  const uint16_t own = in_.things(border.own.x, border.own.y);
-  const uint16_t other = in_.things(border.other.x, border.other.y);
+bool EdgeBorders::isInFront(const PixelAt& ownAt, const PixelAt& otherAt) const {
+  const uint16_t own = in_.things(ownAt.x, ownAt.y);
+  const uint16_t other = in_.things(otherAt.x, otherAt.y);
   if (own == 0 || other == 0) return other == 0;
-  const float here = distanceOf(border.own), there = distanceOf(border.other);
-  const float change =
-      std::max(changeOf(border.own, border.other), changeOf(border.other, border.own));
+  const float here = distanceOf(ownAt), there = distanceOf(otherAt);
+  const float change = std::max(changeOf(ownAt, otherAt), changeOf(otherAt, ownAt));
   if (std::fabs(here - there) > 2.0f * change) return here < there;
   const uint32_t size = sizeOf(own), otherSize = sizeOf(other);
   return size != otherSize ? size < otherSize : own < other;
@@ -151,13 +100,6 @@ float EdgeBorders::distanceOf(const PixelAt& at) const {
   if (in_.position.empty()) return in_.distance.empty() ? 0.0f : in_.distance(at.x, at.y);
   const V3f d = in_.position(at.x, at.y) - in_.eye;
   return d.dot(d);
-}
-
-PixelAt EdgeBorders::mirrored(int x, int y, const Border& border) const {
-  const PixelAt at{border.other.x + border.own.x - x, border.other.y + border.own.y - y};
-  const bool same = in_.things.contains(at.x, at.y) &&
-                    in_.things(at.x, at.y) == in_.things(border.other.x, border.other.y);
-  return same ? at : border.other;
 }
 
 Bytes squaresInReach(View<const uint8_t> borders, float reach) {

@@ -10,12 +10,8 @@ struct PixelAt {
   int x = 0, y = 0;
 };
 
-/// A border as one pixel sees it.
-struct Border {
-  PixelAt own, other;    ///< the pixels on both sides that are nearest
-  float distance = 0;    ///< from the pixel's centre, pixels
-  bool inFront = false;  ///< whether the pixel's own thing is
-};
+/// The steps to a pixel's four neighbours.
+inline constexpr int sideX[4] = {1, -1, 0, 0}, sideY[4] = {0, 0, 1, -1};
 
 /// The borders of a picture whose paint gets its edges (paintEdges): those at which the params of
 /// either side do anything.
@@ -28,31 +24,25 @@ class EdgeBorders {
   const PaintedEdgeParams& paramsAt(const PixelAt& at) const {
     return paramsOf(in_.things(at.x, at.y));
   }
+  /// Whether a border runs between a pixel of the thing `own` and (x, y); none at the frame's.
+  bool isBorder(uint16_t own, int x, int y) const;
   /// Whether a side of the pixel is a border.
   bool isAtBorder(int x, int y) const;
   /// 1 where isAtBorder.
   Bytes borderPixels() const;
-  /// The border that (x, y) sees, from the index y * width + x of a border's pixel that is nearest.
-  /// False where that has no pixel of the own thing beside it.
-  bool find(int x, int y, uint32_t nearest, Border& border) const;
-  /// The pixel as far beyond the border as (x, y) is before it; the one at the border where that is
-  /// of a third thing.
-  PixelAt mirrored(int x, int y, const Border& border) const;
+  /// Share of a pixel that the thing at `own` covers, by the ranks, which must be there.
+  float coveredBy(const PixelAt& own, const PixelAt& at) const;
+  /// Whether the thing at `own` is: the nearer one. Where both are equally far, as where one stands
+  /// on the other, the smaller in the picture is, all along that border: pixels there would tell it
+  /// now of the one and now of the other. Equally far are those that differ by less than twice what
+  /// either changes from pixel to pixel.
+  bool isInFront(const PixelAt& own, const PixelAt& other) const;
 
  private:
   const PaintedEdgeParams& paramsOf(uint16_t thing) const {
     return thing == 0 || thing > in_.params.size() ? none_ : in_.params[thing - 1u];
   }
   uint32_t sizeOf(uint16_t thing) const { return thing < sizes_.size() ? sizes_[thing] : 0u; }
-  bool isBorder(uint16_t own, int x, int y) const;
-  bool ownPixelNear(int x, int y, PixelAt& at) const;
-  float withinPixels(int x, int y, const Border& border) const;
-  float covered(uint32_t id, const PixelAt& at) const;
-  /// Whether the own thing is: the nearer one. Where both are equally far, as where one stands on
-  /// the other, the smaller in the picture is, all along that border: pixels there would tell it
-  /// now of the one and now of the other. Equally far are those that differ by less than twice what
-  /// either changes from pixel to pixel.
-  bool isInFront(const Border& border) const;
   float distanceOf(const PixelAt& at) const;
   float changeOf(const PixelAt& at, const PixelAt& beyond) const;
 

@@ -5,28 +5,13 @@
 
 #include "image/parallel.h"
 #include "image/real_math.h"
-#include "passes/edges/edge_border.h"
+#include "passes/edges/border_sites.h"
+#include "passes/edges/edge_tones.h"
 #include "passes/require_size.h"
 #include "passes/search/nearest_site.h"
-#include "passes/strip/strip.h"
 
 namespace kagefude {
 namespace {
-
-float eased(float t) {
-  const float c = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
-  return c * c * (3.0f - 2.0f * c);
-}
-
-float luminanceOf(const Rgba& colour) {
-  return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
-}
-
-/// How bright a colour over nothing looks, about 0..1.
-float brightness(const Rgba& colour) {
-  const float luminance = luminanceOf(colour);
-  return std::sqrt(luminance > 0.0f ? luminance : 0.0f);
-}
 
 /// Colour with its pigment `dense` times as dense, but no less than 1 / dense as bright: what is
 /// dark already gains colour, not blackness.
@@ -38,60 +23,71 @@ Rgba pooled(const Rgba& colour, float dense) {
     const float own = colour[k] / alpha;
     if (own > 0.0f && own < 1.0f) result[k] = alpha * powerOf(own, dense);
   }
-  const float now = luminanceOf(result), least = luminanceOf(colour) / dense;
+  const float now = paintLuminance(result), least = paintLuminance(colour) / dense;
   if (dense > 1.0f && now > 0.0f && now < least)
     for (int k = 0; k < 3; ++k) result[k] *= least / now;
   return result;
 }
 
+/// A pixel before a border.
+struct BeforeBorder {
+  float inside = 0;  ///< distance from the border into the pixel's own side, pixels
+  float along = 0;   ///< way along it from the site's middle, as slopes go
+  PixelAt beyond;    ///< as far beyond it, or at it where that is of a third thing
+};
+
 class EdgePainter {
  public:
-  explicit EdgePainter(const EdgePaint& in) : in_(in), borders_(in) {
-    for (const PaintedEdgeParams& params : in.params) reach_ = std::max(reach_, reachOf(params));
-  }
-
-  float reach() const { return reach_; }
-  const EdgeBorders& borders() const { return borders_; }
+  EdgePainter(const EdgePaint& in, const EdgeBorders& borders, const BorderSites& sites)
+      : in_(in), borders_(borders), sites_(sites) {}
 
   void paint(int x, int y, uint32_t nearest, const PaintViews& paint) const {
-    Border border;
-    if (!borders_.find(x, y, nearest, border)) return;
+    const BorderSite* const site = sites_.find(x, y, nearest);
+    if (site == nullptr) return;
     const PaintedEdgeParams& own = borders_.paramsAt({x, y});
-    const PaintedEdgeParams& other = borders_.paramsAt(border.other);
-    const PaintedEdgeParams& front = border.inFront ? own : other;
-    const float gap = border.inFront ? dryShare(own, border.distance, x, y) : 0.0f;
-    if (border.distance > changedWithin(front) + (border.inFront ? own.rim : 0.0f))
-      return leaveOut(gap, x, y, paint);
-    const PixelAt beyond = borders_.mirrored(x, y, border);
-    const float grain = borderGrain(x, y, border, beyond, front);
-    const float melted = front.lost > 0.0f ? lostShare(border, front) : 0.0f;
-    const bool moves = front.rough > 0.0f || melted > 0.0f;
-    // Distance into the own side, past the border where the grain has moved it.
-    const float shift = front.rough * (grain + front.overrun);
-    const float inside = border.distance + (border.inFront ? shift : -shift);
-    const float rimOwn = border.inFront ? rimDensity(own, inside, melted, grain) : 1.0f;
-    if (!moves && rimOwn == 1.0f && gap == 0.0f) return;
-
-    Rgba colour{paint.r(x, y), paint.g(x, y), paint.b(x, y), paint.a(x, y)};
-    if (moves) {
-      const float width = 1.0f + 0.15f * front.rough + front.lost * melted;
-      const float share = std::clamp(inside / width + 0.5f, 0.0f, 1.0f);
-      if (share >= 1.0f && border.distance > 1.0f) {
-        colour = pooled(colour, rimOwn);
-      } else {
-        const Rgba here = pooled(colourAt(x, y), rimOwn);
-        const float rimOther = border.inFront ? 1.0f : rimDensity(other, -inside, melted, grain);
-        const Rgba there = pooled(colourAt(beyond.x, beyond.y), rimOther);
-        colour = here * share + there * (1.0f - share);
-      }
-    } else {
-      colour = pooled(colour, rimOwn);
+    const PaintedEdgeParams& other = borders_.paramsAt(site->other);
+    const PaintedEdgeParams& front = site->inFront ? own : other;
+    const BeforeBorder at = before(x, y, *site);
+    if (at.inside > changedWithin(front) + (site->inFront ? own.rim : 0.0f)) {
+      if (site->inFront) leaveOut(dryShare(own, at.inside, *site, {x, y}), x, y, paint);
+      return;
     }
-    colour = colour * (1.0f - gap);
-    paint.r(x, y) = colour[0];
-    paint.g(x, y) = colour[1];
-    paint.b(x, y) = colour[2];
-    paint.a(x, y) = colour[3];
+    const PixelAt& frontAt = site->inFront ? PixelAt{x, y} : at.beyond;
+    const float room = roomFor(*site);
+    const float grain = held(site->grain + site->slope * at.along +
+                             bristles(front) * in_.grain(frontAt.x, frontAt.y));
+    // Distance into the own side, past the border where the grain has moved it.
+    const float most = mostMoved(front, *site);
+    const float shift = most * (grain + front.overrun);
+    const float inside = at.inside + (site->inFront ? shift : -shift);
+    const float gap = dryShare(front, site->inFront ? inside : -inside, *site, frontAt);
+    const float rimOwn = site->inFront ? rimDensity(own, inside, site->melted, grain) : 1.0f;
+    const bool moves = room > 0.0f && (front.rough > 0.0f || site->melted > 0.0f);
+    const bool meets = moves || (room > 0.0f && gap > 0.0f && at.inside < 1.0f);
+    if (!meets && rimOwn == 1.0f && gap == 0.0f) return;
+
+    const float ownGap = site->inFront ? gap : 0.0f, otherGap = gap - ownGap;
+    const Rgba still = pooled(met(x, y, paint), rimOwn) * (1.0f - ownGap);
+    // Where an edge is lost, strokes of both sides reach into each other.
+    const float melt =
+        std::min(front.lost * site->melted, 2.0f * std::min(site->half, site->behind));
+    const float reached = 0.25f * melt * held(0.7f * in_.grain(frontAt.x, frontAt.y));
+    const float width = slanted(most * site->slope) + 0.15f * most + 0.5f * melt;
+    const float share =
+        std::clamp((inside + (site->inFront ? reached : -reached)) / width + 0.5f, 0.0f, 1.0f);
+    if (!meets || (share >= 1.0f && at.inside > 1.0f)) return set(still, x, y, paint);
+    const Rgba here = pooled(paintAt(in_.own, x, y), rimOwn);
+    const float rimOther = site->inFront ? 1.0f : rimDensity(other, -inside, site->melted, grain);
+    const Rgba there = pooled(paintAt(in_.own, at.beyond.x, at.beyond.y), rimOther);
+    const Rgba moved =
+        here * (share * (1.0f - ownGap)) + there * ((1.0f - share) * (1.0f - otherGap));
+    set(still + (moved - still) * room, x, y, paint);
+  }
+
+  /// How far from a border anything is done.
+  static float reachOf(const PaintedEdgeParams& p) {
+    const float moved = p.rough * (1.0f + std::fabs(p.overrun)) + 0.5f * p.lost + 2.0f;
+    return std::max(moved + p.rim, p.dry > 0.0f ? 1.5f * p.dryWidth : 0.0f);
   }
 
  private:
@@ -100,78 +96,58 @@ class EdgePainter {
     return p.rough * (1.075f + std::fabs(p.overrun)) + 0.5f * p.lost + 1.0f;
   }
 
+  static Rgba met(int x, int y, const PaintViews& paint) {
+    return Rgba{paint.r(x, y), paint.g(x, y), paint.b(x, y), paint.a(x, y)};
+  }
+  static void set(const Rgba& colour, int x, int y, const PaintViews& paint) {
+    paint.r(x, y) = colour[0];
+    paint.g(x, y) = colour[1];
+    paint.b(x, y) = colour[2];
+    paint.a(x, y) = colour[3];
+  }
+
   /// All that is left to do further away.
   static void leaveOut(float gap, int x, int y, const PaintViews& paint) {
     if (gap == 0.0f) return;
-    for (const View<float>* plane : {&paint.r, &paint.g, &paint.b, &paint.a})
-      (*plane)(x, y) *= 1.0f - gap;
+    set(met(x, y, paint) * (1.0f - gap), x, y, paint);
   }
 
-  static float reachOf(const PaintedEdgeParams& p) {
-    const float moved = p.rough * (1.0f + std::fabs(p.overrun)) + 0.5f * p.lost + 2.0f;
-    return std::max(moved + p.rim, p.dry > 0.0f ? p.dryWidth : 0.0f);
+  /// A border is straight near each of its pixels, for three quarters of a pixel to both sides.
+  BeforeBorder before(int x, int y, const BorderSite& site) const {
+    const float dx = static_cast<float>(x) - site.x, dy = static_cast<float>(y) - site.y;
+    const float across = dx * site.outX + dy * site.outY;
+    const float along = dx * site.outY - dy * site.outX;
+    const float straight = std::clamp(along, -0.75f, 0.75f);
+    const float distance = std::sqrt(across * across + (along - straight) * (along - straight));
+    BeforeBorder at{across > 0.0f ? -distance : distance, straight, site.other};
+    const PixelAt mirror{x + static_cast<int>(std::floor(0.5f - 2.0f * across * site.outX)),
+                         y + static_cast<int>(std::floor(0.5f - 2.0f * across * site.outY))};
+    if (in_.things.contains(mirror.x, mirror.y) &&
+        in_.things(mirror.x, mirror.y) == in_.things(site.other.x, site.other.y))
+      at.beyond = mirror;
+    return at;
   }
 
-  Rgba colourAt(int x, int y) const {
-    return Rgba{in_.own.r(x, y), in_.own.g(x, y), in_.own.b(x, y), in_.own.a(x, y)};
+  /// How much of the widths there is room for: none in what is hardly wider than a pixel, which
+  /// would fall to crumbs.
+  static float roomFor(const BorderSite& site) {
+    return std::clamp(std::min(site.half, site.behind) - 1.0f, 0.0f, 1.0f);
   }
 
-  /// Shape of the strokes in front, -1..1: mostly that of the border, seen as coarsely as it is
-  /// moved, or it would fray; and a little of the pixel's own bristles.
-  float borderGrain(int x, int y, const Border& border, const PixelAt& beyond,
-                    const PaintedEdgeParams& front) const {
-    const PixelAt at = border.inFront ? PixelAt{x, y} : beyond;
-    const PixelAt rim = border.inFront ? border.own : border.other;
-    const int step = std::max(2, static_cast<int>(front.rough * 0.5f + 0.5f));
-    constexpr float ofBorder = 1.1f, ofPixel = 0.2f;
-    const float grain = ofBorder * meanGrain(rim, step) + ofPixel * in_.grain(at.x, at.y);
-    return grain > -1.0f ? (grain < 1.0f ? grain : 1.0f) : -1.0f;
+  /// A little of the pixel's own bristles, as far as pixels can show them.
+  static float bristles(const PaintedEdgeParams& front) {
+    return 0.2f * std::min(front.rough / 4.0f, 1.0f);
   }
 
-  /// Mean of a thing's grain at nine places round a pixel, `step` apart.
-  float meanGrain(const PixelAt& at, int step) const {
-    const uint16_t own = in_.things(at.x, at.y);
-    float sum = 0, count = 0;
-    for (int dy = -step; dy <= step; dy += step)
-      for (int dx = -step; dx <= step; dx += step) {
-        if (!in_.things.contains(at.x + dx, at.y + dy) || in_.things(at.x + dx, at.y + dy) != own)
-          continue;
-        sum += in_.grain(at.x + dx, at.y + dy);
-        count += 1.0f;
-      }
-    return sum / count;
+  static float held(float grain) { return grain > -1.0f ? (grain < 1.0f ? grain : 1.0f) : -1.0f; }
+
+  /// How far the grain moves the border: no further than half way into a thin thing.
+  static float mostMoved(const PaintedEdgeParams& front, const BorderSite& site) {
+    return std::min(front.rough, 0.5f * site.half / (1.0f + std::fabs(front.overrun)));
   }
 
-  /// Mean of a thing's paint, over its ground, in the 3x3 round one of its pixels.
-  float meanBrightness(const PixelAt& at) const {
-    Rgba sum{};
-    float count = 0;
-    const uint16_t own = in_.things(at.x, at.y);
-    for (int y = at.y - 1; y <= at.y + 1; ++y)
-      for (int x = at.x - 1; x <= at.x + 1; ++x) {
-        if (!in_.things.contains(x, y) || in_.things(x, y) != own) continue;
-        sum += shownAt(x, y);
-        count += 1.0f;
-      }
-    return brightness(sum / count);
-  }
-
-  Rgba shownAt(int x, int y) const {
-    const Rgba paint = colourAt(x, y);
-    if (in_.ground.r.empty()) return paint;
-    const Rgba ground{in_.ground.r(x, y), in_.ground.g(x, y), in_.ground.b(x, y),
-                      in_.ground.a(x, y)};
-    return paint + ground * (1.0f - paint[3]);
-  }
-
-  /// How far the border is lost, 0..1.
-  float lostShare(const Border& border, const PaintedEdgeParams& front) const {
-    const bool background = in_.things(border.own.x, border.own.y) == 0 ||
-                            in_.things(border.other.x, border.other.y) == 0;
-    if (background && in_.ground.r.empty()) return 0.0f;
-    const float step = std::fabs(meanBrightness(border.own) - meanBrightness(border.other));
-    return front.lostTone > 0.0f ? 1.0f - eased(step / front.lostTone) : 0.0f;
-  }
+  /// The width of a step of one pixel across a border that is moved slantwise.
+  static float slanted(float slope) { return std::sqrt(1.0f + std::min(slope * slope, 8.0f)); }
 
   /// How dense the pigment lies, 1 beside the rim.
   static float rimDensity(const PaintedEdgeParams& params, float inside, float melted,
@@ -181,23 +157,26 @@ class EdgePainter {
     const float t = inside / params.rim;
     if (!(t > 0.0f) || t >= 1.0f) return 1.0f;
     const float fall = (1.0f - t) / (1.0f - crest);
-    const float height = t < crest ? eased(t / crest) : fall * fall;
+    const float height = t < crest ? easedIn(t / crest) : fall * fall;
     return 1.0f + params.rimStrength * height * (1.0f - melted) * (1.0f + 0.4f * grain);
   }
 
-  /// Share of the paint that a dry brush leaves out.
-  float dryShare(const PaintedEdgeParams& params, float distance, int x, int y) const {
+  /// Share of the paint that a dry brush leaves out: in its hollows, where the strokes along the
+  /// border are thin.
+  float dryShare(const PaintedEdgeParams& params, float inside, const BorderSite& site,
+                 const PixelAt& at) const {
     if (!(params.dry > 0.0f)) return 0.0f;
-    const float near = 1.0f - distance / params.dryWidth;
-    if (!(near > 0.0f)) return 0.0f;
+    const float thin = easedIn(0.5f - 0.75f * site.grain);
+    const float near = 1.0f - std::max(inside, 0.0f) / (params.dryWidth * (0.5f + thin));
+    if (!(near > 0.0f) || !(thin > 0.0f)) return 0.0f;
     constexpr float lowest = -2.5f, rise = 3.5f, soft = 0.6f;
-    const float bound = lowest + rise * params.dry * near;
-    return eased((bound - in_.grain(x, y)) / soft);
+    const float bound = lowest + rise * params.dry * near * thin;
+    return easedIn((bound - in_.grain(at.x, at.y)) / soft);
   }
 
   const EdgePaint& in_;
-  const EdgeBorders borders_;
-  float reach_ = 0;
+  const EdgeBorders& borders_;
+  const BorderSites& sites_;
 };
 
 void requireSizes(const EdgePaint& in, const PaintViews& paint) {
@@ -212,22 +191,26 @@ void requireSizes(const EdgePaint& in, const PaintViews& paint) {
 
 void paintEdges(const EdgePaint& in, const PaintViews& paint) {
   requireSizes(in, paint);
-  const EdgePainter painter(in);
-  if (!(painter.reach() > 0.0f)) return;
+  float reach = 0;
+  for (const PaintedEdgeParams& params : in.params)
+    if (params.acts()) reach = std::max(reach, EdgePainter::reachOf(params) + 1.5f);
+  if (!(reach > 0.0f)) return;
   const int width = in.things.width, height = in.things.height;
-  const float reach = painter.reach() + 1.5f;
-  const Bytes borders = painter.borders().borderPixels();
-  const Bytes wanted = squaresInReach(borders, reach);
+  const EdgeBorders borders(in);
+  const Bytes at = borders.borderPixels();
+  const Bytes wanted = squaresInReach(at, reach);
   SiteSearch search;
-  search.kinds = borders;
+  search.kinds = at;
   search.wantedKinds = wanted;
   Labels squared(width, height, noSite), nearest(width, height, noSite);
   findNearestSites(search, findLabelBoxes(search), squared, nearest);
+  const BorderSites sites(in, borders, at, squared);
+  const EdgePainter painter(in, borders, sites);
   const float most = reach * reach;
   parallelRows(height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < width; ++x)
-        if (wanted(x, y) && nearest(x, y) != noSite && static_cast<float>(squared(x, y)) <= most)
+        if (nearest(x, y) != noSite && (at(x, y) || static_cast<float>(squared(x, y)) <= most))
           painter.paint(x, y, nearest(x, y), paint);
   });
 }

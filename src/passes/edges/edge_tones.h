@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cmath>
+
+#include "passes/edges/coverage_blend.h"
+#include "passes/strip/strip.h"
+
+namespace kagefude {
+
+/// From 0 to 1 as t goes, without corners.
+inline float easedIn(float t) {
+  const float c = t > 0.0f ? (t < 1.0f ? t : 1.0f) : 0.0f;
+  return c * c * (3.0f - 2.0f * c);
+}
+
+inline float paintLuminance(const Rgba& colour) {
+  return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2];
+}
+
+/// How bright a colour over nothing looks, about 0..1.
+inline float paintBrightness(const Rgba& colour) {
+  const float luminance = paintLuminance(colour);
+  return std::sqrt(luminance > 0.0f ? luminance : 0.0f);
+}
+
+inline Rgba paintAt(const ColourViews& planes, int x, int y) {
+  return Rgba{planes.r(x, y), planes.g(x, y), planes.b(x, y), planes.a(x, y)};
+}
+
+}  // namespace kagefude
