@@ -16,6 +16,8 @@
 #include "cli/commands.h"
 #include "compositor/check_look.h"
 #include "compositor/compose_frame.h"
+#include "compositor/light_visibility.h"
+#include "compositor/look_colour.h"
 #include "compositor/read_frame.h"
 #include "compositor/seen_things.h"
 #include "compositor/write_frame_picture.h"
@@ -170,7 +172,7 @@ void makeLook(const NewOptions& options, Console& console) {
   const LookPreset& preset = lookPreset(options.preset);
   refuseOverwriting(options);
   const Look given = readLookText("", options.output, options.overrides);
-  const Colour colour(given.colourConfig());
+  const Colour colour = colourOf(given);
   const DraftFrame frame = draftFrame(options, given, colour, console);
   const fs::path folder = stripFolderOf(options.output);
   const DraftLook draft = draftLook(preset, frame, folder.filename().string());

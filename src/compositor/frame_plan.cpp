@@ -240,7 +240,8 @@ const SidecarObject* FramePlan::findObject(uint32_t id) const {
 FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame,
                     const std::string& view) {
   const std::string& taken = view.empty() ? look.frame.view : view;
-  ImageFile image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken));
+  ImageFile image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken),
+                              look.keyWithPlace("frame.files"));
   const bool viewless = view.empty() && !look.frame.view.empty() && image.views.empty();
   FramePlan plan = planOpenFrame(look, std::move(image), findSidecar(path), frame);
   if (viewless)
