@@ -268,7 +268,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
   checkSpaces(plan, planes);
-  for (std::string& doubt : doubtDepthMaps(plan, planes))
+  for (std::string& doubt : setDoubtedMapsAside(plan, planes))
     planes.warnings.push_back(std::move(doubt));
   return planes;
 }
