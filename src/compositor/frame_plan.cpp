@@ -187,10 +187,16 @@ bool endsPaint(const Look& look) {
   return anyPasses(look, [](const PassParams& passes) { return passes.edges.acts(); });
 }
 
-/// What shines without the lights, where a tone asks for it.
+/// What shines without the lights, where a tone asks for it. A frame that lacks it is painted
+/// without: the exporter writes the pass only for shots where something gives off light.
 void planFloor(const Look& look, const AovNames& names, FramePlan& plan) {
-  if (anyPasses(look, [](const PassParams& passes) { return passes.tone.emission > 0.0f; }))
-    plan.emission = requireAov(plan.image, names, AovKind::emission);
+  if (anyPasses(look, [](const PassParams& passes) { return passes.tone.emission > 0.0f; })) {
+    plan.emission = findAov(plan.image, names, AovKind::emission);
+    if (!plan.emission)
+      plan.warnings.push_back(
+          "tone.emission is set, but the frame has no Emission pass, so it lifts nothing; where "
+          "something gives off light, export the shot again, or name the pass with frame.emission");
+  }
   if (!anyPasses(look, [](const PassParams& passes) { return passes.tone.world > 0.0f; })) return;
   const std::vector<float>& own = look.scene.world;
   if (!own.empty())
