@@ -141,7 +141,7 @@ size_t frameMemory(const Look& look, const FramePlan& plan,
   const size_t input = inputBytes(plan);
   const size_t passed = look.output.passthrough ? input : 0;
 
-  const size_t reading = floats + 4 * masks + ids + ofReadingIds + edges;
+  const size_t reading = floats + masks + ids + ofReadingIds + edges;
   const auto area = static_cast<size_t>(look.output.scale) * static_cast<size_t>(look.output.scale);
   const size_t scaling = area > 1 ? ofIds + (ofResult + layers + ofIds) / area : 0;
   const size_t composing = floats + masks + ids + ofPasses + ofResult + layers + edges + tones +

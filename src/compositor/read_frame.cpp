@@ -62,15 +62,6 @@ Labels idsFrom(RequestedIds& ids, IdSource source) {
   return ids.whole.empty() ? roundIndices(ids.index) : std::move(ids.whole);
 }
 
-Bytes toMask(View<const float> values) {
-  Bytes mask(values.width, values.height);
-  parallelRows(values.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < values.width; ++x) mask(x, y) = values(x, y) >= 0.5f ? 1 : 0;
-  });
-  return mask;
-}
-
 /// Of colours that are not finite 0.
 Floats luminancesOf(const Vec3Plane& colour) {
   Floats result(colour.x.width(), colour.x.height());
@@ -221,12 +212,10 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   CryptomattePlanes coverage;
   constexpr int edgeRanks = 4;  // a pixel where more than four things meet shows no edge to clean
   if (plan.coverage) coverage = requestCryptomatte(reader, plan.coverage->name, edgeRanks);
-  std::vector<std::vector<Floats>> masks(plan.lights.size());
-  for (size_t i = 0; i < plan.lights.size(); ++i) {
-    masks[i].resize(plan.lights[i].maskChannels.size());
-    for (size_t k = 0; k < masks[i].size(); ++k)
-      reader.floats(plan.lights[i].maskChannels[k], masks[i][k]);
-  }
+  planes.lights.resize(plan.lights.size());
+  for (size_t i = 0; i < plan.lights.size(); ++i)
+    for (const std::string& channel : plan.lights[i].maskChannels)
+      reader.mask(channel, planes.lights[i].masks.emplace_back());
   std::vector<Floats> traced(plan.lights.size());
   for (size_t i = 0; i < traced.size(); ++i)
     if (!plan.lights[i].tracedChannel.empty())
@@ -237,11 +226,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   planes.width = planes.position.x.width();
   planes.height = planes.position.x.height();
   for (size_t i = 0; i < plan.lights.size(); ++i) {
-    LightPlanes& own = planes.lights.emplace_back();
-    for (Floats& mask : masks[i]) {
-      own.masks.push_back(toMask(mask));
-      mask = Floats();
-    }
+    LightPlanes& own = planes.lights[i];
     own.traced = std::move(traced[i]);
     own.depthMap = depthMapOf(plan.lights[i], planes.warnings);
   }

@@ -59,7 +59,8 @@ uint8_t* rawRow(const ExrTarget& target, ExrType type, int y) {
   return std::visit(
       [&](const auto& view) {
         using Pixel = std::remove_reference_t<decltype(*view.data)>;
-        const bool converted = std::is_same_v<Pixel, float> && type != ExrType::float32;
+        const bool converted = std::is_same_v<Pixel, uint8_t> ||
+                               (std::is_same_v<Pixel, float> && type != ExrType::float32);
         return converted ? nullptr : reinterpret_cast<uint8_t*>(view.row(y));
       },
       target.pixels);
@@ -73,6 +74,29 @@ void uintsToFloats(const uint8_t* in, size_t n, float* out) {
   }
 }
 
+void toFloats(const ExrKernels& kernels, ExrType type, const uint8_t* row, size_t n, float* out) {
+  if (type == ExrType::half)
+    kernels.halfToFloat(reinterpret_cast<const uint16_t*>(row), n, out);
+  else
+    uintsToFloats(row, n, out);
+}
+
+/// A block at a time, so that floats that are no one's wish stay in the cache.
+void toMask(const ExrKernels& kernels, ExrType type, const uint8_t* row, size_t n, uint8_t* out) {
+  if (type == ExrType::float32) {
+    kernels.floatToMask(row, n, out);
+    return;
+  }
+  constexpr size_t block = 1024;
+  float values[block];
+  const auto bytes = static_cast<size_t>(exrTypeBytes(type));
+  for (size_t x = 0; x < n; x += block) {
+    const size_t count = std::min(block, n - x);
+    toFloats(kernels, type, row + x * bytes, count, values);
+    kernels.floatToMask(reinterpret_cast<const uint8_t*>(values), count, out + x);
+  }
+}
+
 /// Stores one row of a channel, as it is in the file, in all planes that want it but have not
 /// received it in place.
 void storeRow(const ExrKernels& kernels, const ChannelRun& run, const uint8_t* row, int y) {
@@ -81,13 +105,11 @@ void storeRow(const ExrKernels& kernels, const ChannelRun& run, const uint8_t* r
       if (raw != row) std::memcpy(raw, row, run.bytes);
       continue;
     }
-    const View<float>& view = std::get<View<float>>(target->pixels);
-    const size_t n = static_cast<size_t>(view.width);
-    if (run.type == ExrType::half) {
-      kernels.halfToFloat(reinterpret_cast<const uint16_t*>(row), n, view.row(y));
-    } else {
-      uintsToFloats(row, n, view.row(y));
-    }
+    const size_t n = run.bytes / static_cast<size_t>(exrTypeBytes(run.type));
+    if (const auto* mask = std::get_if<View<uint8_t>>(&target->pixels))
+      toMask(kernels, run.type, row, n, mask->row(y));
+    else
+      toFloats(kernels, run.type, row, n, std::get<View<float>>(target->pixels).row(y));
   }
 }
 

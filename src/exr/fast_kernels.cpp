@@ -2,6 +2,8 @@
 
 #include <Imath/half.h>
 
+#include <cstring>
+
 #include "exr/fast_kernels_avx2.h"
 
 namespace kagefude {
@@ -43,11 +45,19 @@ void floatToHalf(const float* in, size_t n, uint16_t* out) {
   for (size_t i = 0; i < n; ++i) out[i] = imath_float_to_half(in[i]);
 }
 
+void floatToMask(const uint8_t* floats, size_t n, uint8_t* out) {
+  for (size_t i = 0; i < n; ++i) {
+    float value;
+    std::memcpy(&value, floats + i * sizeof value, sizeof value);
+    out[i] = value >= 0.5f ? 1 : 0;
+  }
+}
+
 }  // namespace
 
 const ExrKernels& plainExrKernels() {
-  static const ExrKernels kernels = {"plain", sumBytes,    unpack,     split,
-                                     predict, halfToFloat, floatToHalf};
+  static const ExrKernels kernels = {"plain", sumBytes,    unpack,      split,
+                                     predict, halfToFloat, floatToHalf, floatToMask};
   return kernels;
 }
 

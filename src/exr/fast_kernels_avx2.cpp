@@ -126,6 +126,25 @@ KAGEFUDE_AVX2 void floatToHalf(const float* in, size_t n, uint16_t* out) {
   plainExrKernels().floatToHalf(in + i, n - i, out + i);
 }
 
+/// All bits set in each of 8 values of at least 0.5.
+KAGEFUDE_AVX2 __m256i atLeastHalf(const uint8_t* floats) {
+  const __m256 values = _mm256_castsi256_ps(load(floats));
+  return _mm256_castps_si256(_mm256_cmp_ps(values, _mm256_set1_ps(0.5f), _CMP_GE_OQ));
+}
+
+KAGEFUDE_AVX2 void floatToMask(const uint8_t* floats, size_t n, uint8_t* out) {
+  const __m256i order = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);  // packing goes by lanes
+  size_t i = 0;
+  for (; i + 32 <= n; i += 32) {
+    const uint8_t* in = floats + 4 * i;
+    const __m256i first = _mm256_packs_epi32(atLeastHalf(in), atLeastHalf(in + 32));
+    const __m256i second = _mm256_packs_epi32(atLeastHalf(in + 64), atLeastHalf(in + 96));
+    const __m256i bytes = _mm256_permutevar8x32_epi32(_mm256_packs_epi16(first, second), order);
+    store(out + i, _mm256_and_si256(bytes, _mm256_set1_epi8(1)));
+  }
+  plainExrKernels().floatToMask(floats + 4 * i, n - i, out + i);
+}
+
 /// F16C, which clang 14 does not know by name.
 bool convertsHalves() {
   unsigned a = 0, b = 0, c = 0, d = 0;
@@ -135,8 +154,8 @@ bool convertsHalves() {
 }  // namespace
 
 const ExrKernels* avx2ExrKernels() {
-  static const ExrKernels kernels = {"avx2",  sumBytes,    unpack,     split,
-                                     predict, halfToFloat, floatToHalf};
+  static const ExrKernels kernels = {"avx2",  sumBytes,    unpack,      split,
+                                     predict, halfToFloat, floatToHalf, floatToMask};
   return __builtin_cpu_supports("avx2") && convertsHalves() ? &kernels : nullptr;
 }
 

@@ -42,9 +42,10 @@ struct ExrPart {
 ///   samples rounded to the nearest float.
 /// - View<uint32_t>: the bits of float (Cryptomatte ids) or uint samples.
 /// - View<uint16_t>: the bits of half samples.
+/// - View<uint8_t>: a hard mask of any samples, 1 where they are at least 0.5, else 0.
 struct ExrTarget {
   int channel = 0;
-  std::variant<View<float>, View<uint32_t>, View<uint16_t>> pixels;
+  std::variant<View<float>, View<uint32_t>, View<uint16_t>, View<uint8_t>> pixels;
 };
 
 /// A scanline EXR file of lossless zip, zips, rle or no compression, read straight into planes:

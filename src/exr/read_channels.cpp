@@ -44,13 +44,17 @@ Imf::PixelType fileType(PixelType type) {
   return type == PixelType::uint ? Imf::UINT : Imf::FLOAT;
 }
 
+size_t bytesOf(PixelType type) { return type == PixelType::half ? 2 : 4; }
+
+size_t bytesOf(const PlaneTarget& target) { return target.mask ? 1 : bytesOf(target.type); }
+
 Imf::FrameBuffer frameBufferOf(const ImageFile& file, int part,
                                std::span<const PlaneTarget> targets) {
   Imf::FrameBuffer buffer;
   for (const PlaneTarget& target : targets) {
     if (target.channel->part != part) continue;
     const Window& window = partWindow(file, *target.channel);
-    const size_t bytes = target.type == PixelType::half ? 2 : 4;
+    const size_t bytes = bytesOf(target);
     buffer.insert(target.channel->nameInPart,
                   Imf::Slice::Make(fileType(target.type), target.pixels,
                                    Imath::V2i(window.x, window.y), window.width, window.height,
@@ -87,6 +91,7 @@ void readPart(const Part& part, const Imf::FrameBuffer& buffer) {
 ExrTarget fastTarget(const ExrPart& part, const Window& window, const PlaneTarget& target) {
   const int channel = part.channelIndex(target.channel->nameInPart);
   const int w = window.width, h = window.height;
+  if (target.mask) return {channel, View<uint8_t>(static_cast<uint8_t*>(target.pixels), w, h)};
   if (target.type == PixelType::half) {
     return {channel, View<uint16_t>(static_cast<uint16_t*>(target.pixels), w, h)};
   }
@@ -116,10 +121,19 @@ bool readFast(const FastExr& fast, const ImageFile& file, int number,
   return true;
 }
 
-// `from` has the channel's own type, or both have the type single.
+void toMask(const float* values, size_t pixels, void* mask) {
+  std::transform(values, values + pixels, static_cast<uint8_t*>(mask),
+                 [](float value) { return value >= 0.5f ? uint8_t{1} : uint8_t{0}; });
+}
+
+// `from` has the channel's own type, or both have the same.
 void copyPlane(const PlaneTarget& from, const PlaneTarget& to, size_t pixels) {
-  if (from.type == to.type) {
-    std::memcpy(to.pixels, from.pixels, pixels * (from.type == PixelType::half ? 2 : 4));
+  if (from.type == to.type && from.mask == to.mask) {
+    std::memcpy(to.pixels, from.pixels, pixels * bytesOf(from));
+  } else if (to.mask) {
+    std::vector<float> values(pixels);
+    copyPlane(from, {to.channel, PixelType::single, values.data()}, pixels);
+    toMask(values.data(), pixels, to.pixels);
   } else if (from.type == PixelType::half) {
     const auto* halves = static_cast<const uint16_t*>(from.pixels);
     std::transform(halves, halves + pixels, static_cast<float*>(to.pixels), imath_half_to_float);
@@ -130,13 +144,11 @@ void copyPlane(const PlaneTarget& from, const PlaneTarget& to, size_t pixels) {
   }
 }
 
-size_t bytesOf(PixelType type) { return type == PixelType::half ? 2 : 4; }
-
 // Lays a part's own window into a plane of the file's, with zeros around it.
 void placePlane(const ImageFile& file, const PlaneTarget& own, const PlaneTarget& whole) {
   const Window& from = partWindow(file, *own.channel);
   const Window& to = file.dataWindow;
-  const size_t bytes = bytesOf(own.type);
+  const size_t bytes = bytesOf(own);
   const auto* source = static_cast<const std::byte*>(own.pixels);
   auto* target = static_cast<std::byte*>(whole.pixels);
   const size_t sourceRow = static_cast<size_t>(from.width) * bytes;
@@ -155,27 +167,44 @@ void readJoined(const ImageFile& file, std::span<const PlaneTarget> targets) {
   for (size_t i = 0; i < own.size(); ++i) {
     const Window& window = partWindow(file, *own[i].channel);
     if (window == file.dataWindow) continue;
-    cropped.emplace_back(i, static_cast<size_t>(window.pixels()) * bytesOf(own[i].type));
+    cropped.emplace_back(i, static_cast<size_t>(window.pixels()) * bytesOf(own[i]));
     own[i].pixels = cropped.back().second.data();
   }
   readPlanes(file, own);
   for (const auto& entry : cropped) placePlane(file, own[entry.first], targets[entry.first]);
 }
 
+// For readers that know no masks: reads these as floats first.
+template <class Read>
+void readMasksAsFloats(const ImageFile& file, std::vector<PlaneTarget> targets, const Read& read) {
+  std::vector<std::pair<void*, Floats>> masks;
+  for (PlaneTarget& target : targets) {
+    if (!target.mask) continue;
+    const Window& window = partWindow(file, *target.channel);
+    masks.emplace_back(target.pixels, Floats(window.width, window.height));
+    target = {target.channel, PixelType::single, masks.back().second.row(0)};
+  }
+  read(targets);
+  for (const auto& [pixels, values] : masks)
+    toMask(values.row(0),
+           static_cast<size_t>(values.width()) * static_cast<size_t>(values.height()), pixels);
+}
+
 // Reads one part with whatever reads files of its kind. `fast` is that of the part's file.
 void readPartPlanes(const ImageFile& file, int number, const std::optional<FastExr>& fast,
                     std::span<const PlaneTarget> targets) {
   const Part& part = file.parts[static_cast<size_t>(number)];
-  if (part.source) {
-    std::vector<PlaneTarget> own;
-    std::copy_if(targets.begin(), targets.end(), std::back_inserter(own),
-                 [&](const PlaneTarget& target) { return target.channel->part == number; });
-    if (!own.empty()) part.source->read(own);
-    return;
-  }
-  if (fast && readFast(*fast, file, number, targets)) return;
-  const auto buffer = frameBufferOf(file, number, targets);
-  if (buffer.begin() != buffer.end()) readPart(part, buffer);
+  if (!part.source && fast && readFast(*fast, file, number, targets)) return;
+  std::vector<PlaneTarget> own;
+  std::copy_if(targets.begin(), targets.end(), std::back_inserter(own),
+               [&](const PlaneTarget& target) { return target.channel->part == number; });
+  if (own.empty()) return;
+  readMasksAsFloats(file, std::move(own), [&](std::span<const PlaneTarget> plain) {
+    if (part.source)
+      part.source->read(plain);
+    else
+      readPart(part, frameBufferOf(file, number, plain));
+  });
 }
 
 }  // namespace
@@ -236,10 +265,22 @@ void ChannelReader::raw(const std::string& channelName, RawPlane& plane) {
   targets_.push_back({channel, channel->type, pixels});
 }
 
+void ChannelReader::mask(const std::string& channelName, Bytes& plane) {
+  const Channel* channel = &requireChannel(file_, channelName);
+  plane = Bytes(file_.dataWindow.width, file_.dataWindow.height);
+  targets_.push_back({channel, PixelType::single, plane.row(0), true});
+}
+
 void ChannelReader::read() {
-  // Native types first: a channel that is asked for twice is decoded once and converted from those.
-  std::stable_partition(targets_.begin(), targets_.end(),
-                        [](const PlaneTarget& t) { return t.type == t.channel->type; });
+  // A channel that is asked for twice is decoded once and converted: from its native type, else
+  // from floats, from a mask never.
+  std::stable_sort(targets_.begin(), targets_.end(),
+                   [](const PlaneTarget& a, const PlaneTarget& b) {
+                     const auto loss = [](const PlaneTarget& t) {
+                       return t.mask ? 2 : t.type == t.channel->type ? 0 : 1;
+                     };
+                     return loss(a) < loss(b);
+                   });
   std::vector<PlaneTarget> unique;
   std::vector<std::pair<PlaneTarget, PlaneTarget>> copies;
   std::map<const Channel*, PlaneTarget> first;

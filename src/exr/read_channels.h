@@ -42,6 +42,9 @@ struct PlaneTarget {
   const Channel* channel = nullptr;
   PixelType type = PixelType::single;
   void* pixels = nullptr;
+  /// Then a pixel is a byte, 1 where the channel's value is at least 0.5, else 0. A PartSource
+  /// never sees such a target.
+  bool mask = false;
 };
 
 /// Collects channels of one frame so that each chunk of the file is decoded once for all of them.
@@ -54,6 +57,8 @@ class ChannelReader {
   void floats(const std::string& channelName, Floats& plane);
   void bits(const std::string& channelName, Labels& plane);
   void raw(const std::string& channelName, RawPlane& plane);
+  /// A hard mask: 1 where the channel is at least 0.5, else 0, where it is NaN as well.
+  void mask(const std::string& channelName, Bytes& plane);
   void read();
   const ImageFile& file() const { return file_; }
 

@@ -1,5 +1,8 @@
 #include "live/live_frame.h"
 
+#include <algorithm>
+
+#include "base/glob.h"
 #include "compositor/read_frame.h"
 #include "compositor/scale_down.h"
 #include "live/proxy.h"
@@ -37,10 +40,18 @@ size_t bytesOf(const FramePlanes& planes) {
   return bytes;
 }
 
+/// The centre and four places round it, the fewest that method places takes: each of them costs a
+/// mask, and between them the light's shape is filled in as between nine.
+void takeFewPlaces(FramePlan& plan, const std::vector<std::string>& moving) {
+  constexpr int few = 5;
+  for (FrameLight& light : plan.lights)
+    if (matchesAny(light.name, moving)) light.castPlaces = std::min(light.castPlaces, few);
+}
+
 }  // namespace
 
 LivePicture LiveFrame::compose(const Look& look, StripShelf& shelf, int size, std::stop_token stop,
-                               int coarser) {
+                               int coarser, const std::vector<std::string>& moving) {
   StageRun run{std::move(stop)};
   LivePicture picture;
   picture.look = std::make_shared<const Look>(look);
@@ -54,6 +65,7 @@ LivePicture LiveFrame::compose(const Look& look, StripShelf& shelf, int size, st
   picture.colour = shelf.colourOf(look, run);
   const Made<StripSet> strips = shelf.stripsOf(look, picture.colour, run);
   if (size > 0) picture.step = coarser * proxyStep(planes->width, planes->height, size);
+  if (picture.step > 1) takeFewPlaces(plan, moving);
   compose(picture, strips, std::move(plan), planes, run);
   picture.made = std::move(run.made);
   return picture;

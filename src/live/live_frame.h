@@ -26,10 +26,12 @@ class LiveFrame {
 
   /// The frame under a look, sampled so that its longer side is at most `size` pixels, and of those
   /// samples every `coarser`-th (1: all) in both ways; size 0: whole. Each step keeps its own
-  /// stages. Files that changed on disk are read again. Throws as planFrame, readFramePlanes and
-  /// composeFrame do, and Superseded when `stop` is asked for; what was made until then is kept.
+  /// stages. Lights whose name matches one of `moving` have few places where the frame is sampled
+  /// (shadow.places, method places). Files that changed on disk are read again. Throws as
+  /// planFrame, readFramePlanes and composeFrame do, and Superseded when `stop` is asked for; what
+  /// was made until then is kept.
   LivePicture compose(const Look& look, StripShelf& shelf, int size, std::stop_token stop = {},
-                      int coarser = 1);
+                      int coarser = 1, const std::vector<std::string>& moving = {});
 
   /// What its planes and stages take, about; 0 before the first picture. Its casters not counted.
   size_t bytes() const { return bytes_; }

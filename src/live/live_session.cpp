@@ -51,6 +51,16 @@ bool movesLight(const std::string& turned) {
 }
 constexpr int coarserOfLights = 4;
 
+/// The lights that are moved, as their entries name them.
+std::vector<std::string> movedLights(const std::string& turned, const Look& look) {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < look.lights.size(); ++i)
+    for (const char* key : {"position", "direction"})
+      if (turned.find(fmt::format("light[{}].{}", i, key)) != std::string::npos)
+        names.push_back(look.lights[i].light.name);
+  return names;
+}
+
 /// Whether something was made for it that a turn of the knob would not make again.
 bool madeFirst(const LivePicture& picture) {
   const auto has = [&](const char* stage) {
@@ -254,9 +264,11 @@ void LiveSession::keepPace(const LivePicture& picture, int coarser, Milliseconds
     if (2 * took <= settings_.pace) coarser_[turned_] = 1;
     return;
   }
-  // Half as many samples in both ways take about a quarter. The fewer there are, the longer may
-  // they take, for those that are left out cost the eye something as well.
-  if (coarser > 1 && 4 * took <= settings_.pace * (coarser / 2)) coarser /= 2;
+  // Half as many samples in both ways take about a quarter; all samples of a light that moves also
+  // have all of its places. The fewer there are, the longer may they take, for those that are left
+  // out cost the eye something as well.
+  const int finer = coarser == 2 && movesLight(turned_) ? 8 : 4;
+  if (coarser > 1 && finer * took <= settings_.pace * (coarser / 2)) coarser /= 2;
   for (; took > settings_.pace * coarser && coarser < coarsest; took /= 4) coarser *= 2;
   coarser_[turned_] = coarser;
   if (coarser > 1) proxies_.insert(coarser);
@@ -281,8 +293,10 @@ void LiveSession::answer(bool whole) {
     }
     const auto start = std::chrono::steady_clock::now();
     const int coarser = coarserNow();
+    const auto moving = coarser > 1 ? movedLights(turned_, look) : std::vector<std::string>();
     made.picture = std::make_shared<const LivePicture>(
-        frameOf(now_.input).compose(look, shelf_, whole ? 0 : settings_.size, stop, coarser));
+        frameOf(now_.input)
+            .compose(look, shelf_, whole ? 0 : settings_.size, stop, coarser, moving));
     keepPace(*made.picture, whole ? 0 : coarser, std::chrono::steady_clock::now() - start);
     sharp_ = made.picture->step == 1;
     letFramesGo();

@@ -57,7 +57,8 @@ struct LiveView {
 /// There is no queue: of changes that wait only the last is kept. A picture that was begun at the
 /// viewer's size is finished, so that a hand that never rests sees every picture that there is time
 /// for. What is turned and takes longer than `pace` is shown by every 2nd, 4th or 8th of its pixels
-/// in both ways, which is learnt for each knob as it is turned. Sharpening to full size begins when
+/// in both ways, which is learnt for each knob as it is turned; a light that is moved has fewer
+/// places meanwhile. Sharpening to full size begins when
 /// nothing has changed for `rest`, and gives way to the next change between two stages. Files
 /// (look, strips, frame) are looked at four times a second while nothing else is done, which also
 /// sees changes on network drives. All functions may be called from any thread.

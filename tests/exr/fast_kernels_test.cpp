@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <random>
 
@@ -114,6 +115,24 @@ std::vector<float> floatsToRound() {
   for (int i = 0; i < 500000; ++i)
     floats.push_back(std::bit_cast<float>(static_cast<uint32_t>(generator())));
   return floats;
+}
+
+TEST(ExrKernels, MasksAreOneFromOneHalfOn) {
+  std::vector<float> floats = {
+      0.5f, std::nextafter(0.5f, 0.0f), 1.0f, 0.0f, -1.0f, -0.0f, NAN, -NAN, INFINITY, -INFINITY};
+  std::mt19937 generator(4);
+  while (floats.size() < 1000)
+    floats.push_back(std::bit_cast<float>(static_cast<uint32_t>(generator())));
+  std::vector<uint8_t> odd(4 * floats.size() + 1);
+  std::memcpy(odd.data() + 1, floats.data(), 4 * floats.size());
+  for (const ExrKernels* level : exrKernelLevels())
+    for (const size_t n : lengths) {
+      std::vector<uint8_t> mask(n + 1, 7);
+      level->floatToMask(odd.data() + 1, n, mask.data());
+      for (size_t i = 0; i < n; ++i)
+        ASSERT_EQ(mask[i], floats[i] >= 0.5f ? 1 : 0) << level->name << " " << floats[i];
+      EXPECT_EQ(mask[n], 7) << n;
+    }
 }
 
 TEST(ExrKernels, FloatsRoundToTheHalfThatImathMakes) {

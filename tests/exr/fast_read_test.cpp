@@ -63,7 +63,7 @@ TEST_F(ExrFastRead, SamePixelsAsOiioOverCodecsWindowsAndContents) {
     for (const Window& window : windows) {
       for (const TestPixels pixels : {TestPixels::smooth, TestPixels::flat, TestPixels::noise}) {
         SCOPED_TRACE(::testing::Message() << codec << " " << window.width << "x" << window.height
-                                        << " " << static_cast<int>(pixels));
+                                          << " " << static_cast<int>(pixels));
         const TestPart part = makeTestPart("", window, codec, pixels, 11);
         writeWithOpenExr(file("a.exr"), {part});
         expectSamePixels(file("a.exr"), {part});
@@ -100,6 +100,23 @@ TEST_F(ExrFastRead, HalfAndUintChannelsBecomeFloats) {
     std::memcpy(&half, part.channels[0].bytes.data() + 2 * i, 2);
     ASSERT_EQ(planes[0].row(0)[i], static_cast<float>(index));
     ASSERT_EQ(planes[1].row(0)[i], imath_half_to_float(half));
+  }
+}
+
+TEST_F(ExrFastRead, MasksOfAnyTypeEqualTheirFloatsAgainstOneHalf) {
+  for (const Imf::Compression codec : codecs) {
+    const TestPart part = makeTestPart("", {0, 0, 1531, 20}, codec, TestPixels::noise, 4);
+    writeWithOpenExr(file("a.exr"), {part});
+    const auto opened = FastExr::open(file("a.exr"));
+    ASSERT_TRUE(opened);
+    for (int channel = 0; channel < static_cast<int>(part.channels.size()); ++channel) {
+      Bytes mask(1531, 20);
+      Floats floats(1531, 20);
+      const ExrTarget targets[] = {{channel, mask.view()}, {channel, floats.view()}};
+      opened->read(0, targets);
+      for (size_t i = 0; i < 1531 * 20; ++i)
+        ASSERT_EQ(mask.row(0)[i], floats.row(0)[i] >= 0.5f ? 1 : 0) << channel << " " << i;
+    }
   }
 }
 

@@ -3,7 +3,9 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <cstring>
 
+#include "exr/fast_fixture.h"
 #include "frame/frame_fixtures.h"
 
 namespace kagefude {
@@ -62,6 +64,37 @@ TEST(ReadChannels, OneChannelInSeveralFormsIsReadOnce) {
     EXPECT_EQ(first(3, 2), 11.0f);
     EXPECT_EQ(second(3, 2), 11.0f);
     EXPECT_EQ(raw.type, file.channels[0].type);
+  }
+}
+
+/// Zip is decoded by the fast path, PIZ by OpenEXR.
+TEST(ReadChannels, MasksAreTheSameWhateverReadsThemAndWhoeverElseWantsThem) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "a.exr").string();
+  for (const Imf::Compression codec : {Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
+    writeWithOpenExr(path, {makeTestPart("", {-5, 2, 37, 19}, codec, TestPixels::noise, 3)});
+    const ImageFile file = openImage(path);
+    for (const std::string name : {"R", "Layer.Depth.Z", "Layer.Index.X"}) {
+      const Floats values = std::move(readFloats(file, Names{name}).front());
+      for (const bool others : {false, true}) {
+        ChannelReader reader(file);
+        Bytes first, second;
+        Floats floats;
+        RawPlane raw;
+        reader.mask(name, first);
+        if (others) {
+          reader.floats(name, floats);
+          reader.raw(name, raw);
+        }
+        reader.mask(name, second);
+        reader.read();
+        for (int i = 0; i < 37 * 19; ++i) {
+          ASSERT_EQ(first.row(0)[i], values.row(0)[i] >= 0.5f ? 1 : 0) << name << " " << i;
+          ASSERT_EQ(second.row(0)[i], first.row(0)[i]);
+        }
+        if (others) EXPECT_EQ(std::memcmp(floats.row(0), values.row(0), 4 * 37 * 19), 0) << name;
+      }
+    }
   }
 }
 

@@ -95,6 +95,30 @@ TEST_F(LivePace, AMovedLightBeginsCoarseAndGetsFinerWhereThatIsQuick) {
   EXPECT_EQ(turned(session, light(4))->step, 1);
 }
 
+TEST_F(LivePace, AMovedLightHasFewerPlacesUntilTheHandRests) {
+  LiveSession session(settings());
+  first(session);
+  turned(session, light(0));
+  const auto places = [](const LivePicture& picture) {
+    return picture.plan->lights.at(0).castPlaces;
+  };
+  EXPECT_EQ(places(*turned(session, light(1))), 5);
+  const auto whole = seen(session, 2, 1);
+  EXPECT_EQ(places(*whole), 9);
+  const FrameResult wanted =
+      frame.comp("[[light]]\nname = \"Key\"\nshadow.method = \"places\"\nposition = [1, 1, 9]\n");
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      ASSERT_EQ(whole->stages.picture->frame.colour.x(x, y), wanted.colour.x(x, y));
+  // What else is turned has all of them, also where it is sampled.
+  std::vector<std::string> other = light(1);
+  for (const char* contrast : {"brush.contrast=0.1", "brush.contrast=0.2"}) {
+    other.resize(3);
+    other.emplace_back(contrast);
+    EXPECT_EQ(places(*turned(session, other)), 9);
+  }
+}
+
 TEST_F(LivePace, AFrameThatIsSampledAnywayIsSampledFurther) {
   LiveSession::Settings small = settings();
   small.size = 16;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "passes/casters/coverage.h"
@@ -9,6 +10,9 @@ namespace kagefude {
 
 /// Lists up to this length are tested pixel by pixel at once rather than cut down further.
 inline constexpr int shortList = 48;
+/// A rectangle's quarters descend the tree anew rather than read a list that is longer than this:
+/// where few pixels are shown of much, most of the list is apart from most of them.
+inline constexpr int longList = 128;
 /// Rounding of a point relative to its distance from the eye, with some to spare.
 inline constexpr float roundingBias = 4e-6f;
 
@@ -33,8 +37,8 @@ struct Rect {
   }
 };
 
-/// Descends the tree for a tile and cuts it in four, with ever shorter lists, until a rectangle is
-/// uniform or its list is short.
+/// Descends the tree for a tile, or for its quarters where much is in reach of it, and cuts it in
+/// four, with ever shorter lists, until a rectangle is uniform or its list is short.
 class TileShader {
  public:
   TileShader(const SeenSurface& surface, const ShadowWedges& wedges, const CoverageParams& params)
@@ -44,15 +48,19 @@ class TileShader {
   /// `settle(rect, shaded)` takes uniform rectangles, `leaf(rect, list)` the others.
   template <class Settle, class Leaf>
   void shade(const PixelBoxes& boxes, const Rect& rect, const Settle& settle, const Leaf& leaf) {
+    const auto quarters = [&] {
+      for (int k = 0; k < 4; ++k) shade(boxes, rect.quarter(k), settle, leaf);
+    };
+    if (rect.width() == coverageTile) widest_ = std::min(2 * widest_, coverageTile);
     PointBox box;
     bool stretched;
     if (!boxes.around(rect.x0, rect.y0, rect.x1, rect.y1, box, stretched)) return;
-    if (stretched && rect.width() > 1) {
-      for (int k = 0; k < 4; ++k) shade(boxes, rect.quarter(k), settle, leaf);
-      return;
-    }
+    if (rect.width() > widest_ || (stretched && rect.width() > 1)) return quarters();
     const BoxState state = wedges_.gather(box, verdictBias(boxes), list_);
-    if (state == BoxState::touching)
+    if (state == BoxState::touching && list_.count > longList && rect.width() > 1) {
+      widest_ = rect.width() / 2;
+      quarters();
+    } else if (state == BoxState::touching)
       refine(boxes, rect, list_, 0, settle, leaf);
     else
       settle(rect, state == BoxState::inside);
@@ -95,6 +103,8 @@ class TileShader {
   }
 
   WedgeList list_;
+  /// Of the rectangles whose lists were not long lately, for neighbours' are alike.
+  int widest_ = coverageTile;
   std::array<WedgeList, 4> levels_;
 };
 

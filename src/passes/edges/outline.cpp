@@ -38,15 +38,44 @@ float depthAt(const Input& in, int x, int y) {
   return z > 0.0f ? z : 3.0e38f;
 }
 
+// Whether a line is drawn between two ids.
+bool parted(const Input& in, uint32_t a, uint32_t b) {
+  return a != b && (in.objects || a == 0 || b == 0);
+}
+
+bool isCrease(const Input& in, int px, int py, int qx, int qy) {
+  const V3f n = in.normal(px, py), m = in.normal(qx, qy);
+  return n.dot(m) < in.creaseCosine * std::sqrt(n.dot(n) * m.dot(m));
+}
+
+// Whether p lies on a lip: no more than two pixels from a line between ids to a crease. Centres of
+// pixels hit what is so narrow now and then, and its crease would be dashes beside that line.
+bool onLip(const Input& in, int x, int y) {
+  constexpr int steps[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+  constexpr int lip = 2;
+  const uint32_t own = in.ids(x, y);
+  for (const auto& step : steps) {
+    bool ends = false, turns = false;
+    for (int i = 1; i <= lip; ++i) {
+      const int rx = x - i * step[0], ry = y - i * step[1];
+      const int qx = x + i * step[0], qy = y + i * step[1];
+      ends = ends || (in.ids.contains(rx, ry) && parted(in, own, in.ids(rx, ry)));
+      turns =
+          turns || (in.ids.contains(qx, qy) && in.ids(qx, qy) == own && isCrease(in, x, y, qx, qy));
+    }
+    if (ends && turns) return true;
+  }
+  return false;
+}
+
 // Whether q is on p's side of every line.
 bool sameSide(const Input& in, int px, int py, int qx, int qy) {
   const uint32_t a = in.ids(px, py), b = in.ids(qx, qy);
-  if (a != b && (in.objects || a == 0 || b == 0)) return false;
+  if (parted(in, a, b)) return false;
   if (a == 0 || in.normal.empty()) return true;
-  const V3f n = in.normal(px, py), m = in.normal(qx, qy);
-  const float cosine = n.dot(m);
-  if (cosine < in.creaseCosine * std::sqrt(n.dot(n) * m.dot(m))) return false;
+  if (isCrease(in, px, py, qx, qy) && !onLip(in, px, py) && !onLip(in, qx, qy)) return false;
   if (in.position.empty() || in.depth.empty() || in.depthStep <= 0.0f) return true;
+  const V3f n = in.normal(px, py), m = in.normal(qx, qy);
   const V3f d = in.position(qx, qy) - in.position(px, py);
   // Off either plane alone happens on curved surfaces; a step is off both.
   const float off = std::min(std::fabs(d.dot(n)), std::fabs(d.dot(m)));

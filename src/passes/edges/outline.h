@@ -37,11 +37,12 @@ struct OutlineResult {
 /// Contour lines in the image (003 draws silhouette edges of the mesh; here they are found between
 /// pixels). Two neighbours lie on different sides of a line when their ids differ, when one lies
 /// off the other's tangent plane by more than depth_step x depth, or when their normals differ by
-/// more than crease_angle. **[ours]** Smooth lines from ids without anti-aliasing: round each such
-/// pixel the share of its side in a Gaussian window tells how far off, to a fraction of a pixel,
-/// the smoothed boundary runs and which way; a short piece of line of the asked width is drawn
-/// there. ids: 0 = background. depth: distance from the camera or planar depth, world units; only
-/// compared. Any of normal and position may be empty: then ids alone count. Background pixels'
+/// more than crease_angle. A lip, which lies no more than two pixels from a line between ids to a
+/// crease, has no line of its own. **[ours]** Smooth lines from ids without anti-aliasing: round
+/// each such pixel the share of its side in a Gaussian window tells how far off, to a fraction of a
+/// pixel, the smoothed boundary runs and which way; a short piece of line of the asked width is
+/// drawn there. ids: 0 = background. depth: distance from the camera or planar depth, world units;
+/// only compared. Any of normal and position may be empty: then ids alone count. Background pixels'
 /// normals and positions are not read. Cost: 49 comparisons an edge pixel, and the line's area.
 OutlineResult drawOutlines(View<const uint32_t> ids, Vec3View normal, Vec3View position,
                            View<const float> depth, const OutlineParams& params);

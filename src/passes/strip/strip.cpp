@@ -1,11 +1,12 @@
 #include "passes/strip/strip.h"
 
 #include <fmt/format.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
+#include "image/parallel.h"
 #include "passes/strip/strip_lookup.h"
 
 namespace kagefude {
@@ -21,19 +22,35 @@ Rgba finiteOrZero(Rgba c) {
 
 // Box-filters `from` texels into `to` texels along one axis; texels that straddle a border are
 // shared by area, so the mean stays exact at odd sizes.
-template <class Read, class Write>
-void shrinkLine(int from, int to, const Read& read, const Write& write) {
-  const double scale = static_cast<double>(from) / to;
-  for (int i = 0; i < to; ++i) {
-    const double begin = i * scale, end = (i + 1) * scale;
-    Rgba sum{};
-    for (int j = static_cast<int>(begin); j < from && j < end; ++j) {
-      const double share = std::min<double>(j + 1, end) - std::max<double>(j, begin);
-      sum += read(j) * static_cast<float>(share / scale);
+class BoxShares {
+ public:
+  BoxShares(int from, int to) {
+    const double scale = static_cast<double>(from) / to;
+    for (int i = 0; i < to; ++i) {
+      const double begin = i * scale, end = (i + 1) * scale;
+      first_.push_back(static_cast<int>(begin));
+      start_.push_back(shares_.size());
+      for (int j = first_.back(); j < from && j < end; ++j) {
+        const double share = std::min<double>(j + 1, end) - std::max<double>(j, begin);
+        shares_.push_back(static_cast<float>(share / scale));
+      }
     }
-    write(i, sum);
+    start_.push_back(shares_.size());
   }
-}
+
+  /// use(j, share) for each texel j that texel i is made of, in their order.
+  template <class Use>
+  void each(int i, const Use& use) const {
+    const auto k = static_cast<size_t>(i);
+    int j = first_[k];
+    for (size_t at = start_[k]; at < start_[k + 1]; ++at) use(j++, shares_[at]);
+  }
+
+ private:
+  std::vector<int> first_;
+  std::vector<size_t> start_;
+  std::vector<float> shares_;
+};
 
 // One level while the chain is being built.
 using Texels = Plane<Rgba>;
@@ -41,14 +58,27 @@ using Texels = Plane<Rgba>;
 Texels shrink(const Texels& fine) {
   const int width = std::max(1, fine.width() / 2), height = std::max(1, fine.height() / 2);
   Texels narrow(width, fine.height()), coarse(width, height);
-  for (int y = 0; y < fine.height(); ++y)
-    shrinkLine(
-        fine.width(), width, [&](int x) { return fine(x, y); },
-        [&](int x, Rgba c) { narrow(x, y) = c; });
-  for (int x = 0; x < width; ++x)
-    shrinkLine(
-        fine.height(), height, [&](int y) { return narrow(x, y); },
-        [&](int y, Rgba c) { coarse(x, y) = c; });
+  const BoxShares across(fine.width(), width), down(fine.height(), height);
+  parallelRows(fine.height(), [&](int first, int end) {
+    for (int y = first; y < end; ++y) {
+      const Rgba* const from = fine.row(y);
+      for (int x = 0; x < width; ++x) {
+        Rgba sum{};
+        across.each(x, [&](int j, float share) { sum += from[j] * share; });
+        narrow(x, y) = sum;
+      }
+    }
+  });
+  parallelRows(height, [&](int first, int end) {
+    for (int y = first; y < end; ++y) {
+      Rgba* const to = coarse.row(y);
+      std::fill_n(to, width, Rgba{});
+      down.each(y, [&](int j, float share) {
+        const Rgba* const from = narrow.row(j);
+        for (int x = 0; x < width; ++x) to[x] += from[x] * share;
+      });
+    }
+  });
   return coarse;
 }
 
@@ -78,19 +108,23 @@ Strip makeStrip(View<const float> r, View<const float> g, View<const float> b,
                                  r.width, r.height, largestSide));
   std::vector<Texels> chain;
   chain.emplace_back(r.width, r.height);
-  for (int y = 0; y < r.height; ++y)
-    for (int x = 0; x < r.width; ++x)
-      chain.front()(x, y) =
-          finiteOrZero(Rgba{r(x, y), g(x, y), b(x, y), a.empty() ? 1.0f : a(x, y)});
+  parallelRows(r.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < r.width; ++x)
+        chain.front()(x, y) =
+            finiteOrZero(Rgba{r(x, y), g(x, y), b(x, y), a.empty() ? 1.0f : a(x, y)});
+  });
   while (chain.back().width() > 1 || chain.back().height() > 1)
     chain.push_back(shrink(chain.back()));
   Strip strip = packed(chain);
   strip.opaque = a.empty();
   strip.means = Plane<Rgba>(r.height, 1);
-  for (int y = 0; y < r.height; ++y)
-    shrinkLine(
-        r.width, 1, [&](int x) { return chain.front()(x, y); },
-        [&](int, Rgba mean) { strip.means(y, 0) = mean; });
+  const BoxShares row(r.width, 1);
+  for (int y = 0; y < r.height; ++y) {
+    Rgba mean{};
+    row.each(0, [&](int x, float share) { mean += chain.front()(x, y) * share; });
+    strip.means(y, 0) = mean;
+  }
   strip.grain = makeStripGrain(strip.levels.front().texels);
   return strip;
 }

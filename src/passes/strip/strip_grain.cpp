@@ -1,6 +1,8 @@
 #include "passes/strip/strip_grain.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -139,14 +141,23 @@ void packChain(Floats grain, StripGrain& result) {
 
 /// Share of the grain's texels below each border between two columns of the colours.
 std::vector<float> sharesBelow(const Floats& grain) {
-  std::vector<float> sorted(grain.row(0), grain.row(0) + grain.view().pixels());
-  std::sort(sorted.begin(), sorted.end());
+  std::array<float, StripGrain::columns - 1> borders;
+  for (size_t i = 0; i < borders.size(); ++i)
+    borders[i] =
+        (2.0f * static_cast<float>(i + 1) - static_cast<float>(StripGrain::columns)) *
+        StripGrain::reach / static_cast<float>(StripGrain::columns - 1);
+  std::array<size_t, StripGrain::columns> inColumn{};
+  const size_t texels = grain.view().pixels();
+  for (const float* value = grain.row(0); value != grain.row(0) + texels; ++value) {
+    size_t column = 0;
+    for (const float border : borders) column += *value >= border;
+    ++inColumn[column];
+  }
   std::vector<float> shares{0.0f};
-  for (int i = 1; i < StripGrain::columns; ++i) {
-    const float border = (2.0f * static_cast<float>(i) - static_cast<float>(StripGrain::columns)) *
-                         StripGrain::reach / static_cast<float>(StripGrain::columns - 1);
-    const auto below = std::lower_bound(sorted.begin(), sorted.end(), border) - sorted.begin();
-    shares.push_back(static_cast<float>(below) / static_cast<float>(sorted.size()));
+  size_t below = 0;
+  for (size_t i = 0; i < borders.size(); ++i) {
+    below += inColumn[i];
+    shares.push_back(static_cast<float>(below) / static_cast<float>(texels));
   }
   shares.push_back(1.0f);
   return shares;
@@ -154,13 +165,12 @@ std::vector<float> sharesBelow(const Floats& grain) {
 
 /// Colours of one row by rising brightness, averaged over the shares of each column.
 void rankRow(const Rgba* texels, int width, const std::vector<float>& shares, Rgba* colours) {
-  std::vector<int> order(static_cast<size_t>(width));
-  std::iota(order.begin(), order.end(), 0);
-  std::vector<float> keys(static_cast<size_t>(width));
-  for (int x = 0; x < width; ++x) keys[static_cast<size_t>(x)] = brightness(texels[x]);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return keys[static_cast<size_t>(a)] < keys[static_cast<size_t>(b)];
-  });
+  // Brightness is 0 or more, so its bits are in its order; equal ones stay in the row's.
+  std::vector<uint64_t> order(static_cast<size_t>(width));
+  for (int x = 0; x < width; ++x)
+    order[static_cast<size_t>(x)] =
+        uint64_t{std::bit_cast<uint32_t>(brightness(texels[x]))} << 32 | static_cast<uint32_t>(x);
+  std::sort(order.begin(), order.end());
   const float count = static_cast<float>(width);
   for (size_t i = 0; i + 1 < shares.size(); ++i) {
     // At least one texel's worth, so that a column without a share takes its neighbours' colour.
@@ -172,7 +182,7 @@ void rankRow(const Rgba* texels, int width, const std::vector<float>& shares, Rg
     for (int k = static_cast<int>(from); k < width && static_cast<float>(k) < to; ++k) {
       const float share =
           std::min(static_cast<float>(k + 1), to) - std::max(static_cast<float>(k), from);
-      sum += texels[order[static_cast<size_t>(k)]] * share;
+      sum += texels[static_cast<uint32_t>(order[static_cast<size_t>(k)])] * share;
     }
     colours[i] = sum * (1.0f / (to - from));
   }

@@ -139,6 +139,37 @@ TEST(Coverage, MaskAtCentresMatchesATrace) {
   EXPECT_GT(hidden, 100);
 }
 
+TEST(Coverage, MaskOfManySmallTrianglesMatchesATrace) {
+  TracedScene scene;
+  CasterMesh sheet{"sheet", 2, {}, {}};
+  constexpr uint32_t side = 40;
+  for (uint32_t i = 0; i < side; ++i)
+    for (uint32_t j = 0; j < side; ++j) {
+      const float x = 0.05f * float(i) - 1, y = 0.05f * float(j) - 1;
+      sheet.vertices.push_back({x, y, 1.2f + 0.2f * std::sin(9 * x) * std::sin(7 * y)});
+      if (i > 0 && j > 0 && (i + j) % 5 != 0) {
+        const uint32_t at = i * side + j;
+        sheet.triangles.push_back({at, at - 1, at - side});
+        sheet.triangles.push_back({at - side, at - 1, at - side - 1});
+      }
+    }
+  scene.meshes = {groundMesh(1), sheet};
+  scene.render();
+  const LightPlace light = pointAt({-2, 1, 5});
+  const Bytes mask = hardShadowMask(scene.seen(), scene.casters(), light, {});
+  int hidden = 0, differ = 0;
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) {
+      if (scene.ids(x, y) != 1) continue;
+      const V3d lifted = V3d(scene.position.view()(x, y)) + V3d(0, 0, 1e-4);
+      const bool dark = scene.hidden(lifted, light);
+      differ += mask(x, y) != (dark ? 0 : 1);
+      hidden += dark;
+    }
+  EXPECT_GT(hidden, 50);
+  EXPECT_EQ(differ, 0);
+}
+
 TEST(Coverage, ReceiverThatIsNoCasterTakesItsPlaneFromTheNormal) {
   TracedScene scene;
   scene.meshes = {groundMesh(1), boxMesh(2, {-1, -1, 1}, {1, 1, 2})};

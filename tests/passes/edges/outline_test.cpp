@@ -50,6 +50,39 @@ TEST(Outline, StraightEdgeHasTheAskedWidth) {
   }
 }
 
+TEST(Outline, ALipHitNowAndThenAddsNoDashesToTheLineBesideIt) {
+  // Below row 10 another thing stands before the first; its upper rim, one pixel high, faces up,
+  // but pixels' centres hit it in three columns of six only. Or in rows 10 and 11.
+  OutlineScene plain(60, 40);
+  for (int y = 10; y < 40; ++y)
+    for (int x = 0; x < 60; ++x) plain.ids(x, y) = 2;
+  const OutlineResult wanted = plain.draw();
+  for (const int high : {1, 2}) {
+    OutlineScene scene(60, 40);
+    for (int y = 10; y < 40; ++y)
+      for (int x = 0; x < 60; ++x) {
+        scene.ids(x, y) = 2;
+        if (y < 10 + high && x % 6 < 3) scene.normal.set(x, y, {0, 1, 0});
+      }
+    const OutlineResult result = scene.draw();
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 60; ++x)
+        ASSERT_EQ(result.coverage(x, y), wanted.coverage(x, y)) << high << ": " << x << " " << y;
+  }
+  // What is wider has its own line, and so has a rim where lines between objects are not drawn.
+  OutlineScene wide(60, 40), alone(60, 40);
+  for (int y = 10; y < 40; ++y)
+    for (int x = 0; x < 60; ++x) {
+      wide.ids(x, y) = alone.ids(x, y) = 2;
+      if (y < 16) wide.normal.set(x, y, {0, 1, 0});
+      if (y < 12) alone.normal.set(x, y, {0, 1, 0});
+    }
+  EXPECT_GT(wide.draw().coverage(30, 15), 0.7f);
+  OutlineParams inside;
+  inside.objects = false;
+  EXPECT_GT(alone.draw(inside).coverage(30, 11), 0.7f);
+}
+
 TEST(Outline, LineLiesOnTheBorderBetweenThePixels) {
   OutlineScene scene(40, 40);
   for (int y = 0; y < 40; ++y)
