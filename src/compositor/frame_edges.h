@@ -3,7 +3,7 @@
 #include "compositor/frame_plan.h"
 #include "compositor/styled_surfaces.h"
 #include "passes/brush/brush_map.h"
-#include "passes/edges/behind_paint.h"
+#include "passes/edges/coverage_blend.h"
 
 namespace kagefude {
 
@@ -13,6 +13,14 @@ void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& b
 
 /// The same; gives the colours as they were before.
 BrushResult keepBeforeEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
+
+/// Whether the frame has what blendByNormals needs.
+bool knowsMeanNormals(const FramePlanes& planes);
+
+/// Blends the strokes at all edges at once, inside objects and between them, by the render's mean
+/// normals: in place of blendInside and blendEdges.
+void blendByNormals(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
+                    View<const uint8_t> joins, BrushResult& brush);
 
 /// Blends the strokes where edges run inside an object, and between objects where the frame has no
 /// coverage. `joins` are those of its surfaces.
@@ -24,9 +32,9 @@ void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<c
 void putBeautyBehind(const FramePlanes& planes, BrushResult& brush);
 
 /// Ends each style's paint as its [edges] say (paintEdges). `own` is the paint before things met;
-/// its grain must be there. `ground` may be null.
+/// its grain must be there. `ground` may be empty.
 void paintStyleEdges(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
-                     const BrushResult& own, const PaintGround* ground, BrushResult& brush);
+                     const BrushResult& own, const ColourViews& ground, BrushResult& brush);
 
 /// Draws the styles' contour lines over the strokes, each in the colour of the style of its nearest
 /// surface. Returns the lines' coverage (layer `outline`); empty when no style draws any and

@@ -75,6 +75,19 @@ void planCoverage(const Look& look, const AovNames& names, FramePlan& plan) {
   plan.coverage = findAov(plan.image, names, AovKind::cryptoObject);
 }
 
+/// The exporter's own pass beside its normals, in world space as they are.
+void planMeanNormal(FramePlan& plan) {
+  if (!plan.coverage || !plan.sidecar) return;
+  const std::string& normal = plan.normal.channels.at(0);  // "layer.Normal.X"
+  const std::string pass = normal.substr(0, normal.rfind('.'));
+  const std::string layer = pass.substr(0, pass.rfind('.') + 1);
+  for (const char* axis : {"X", "Y", "Z"}) {
+    std::string name = fmt::format("{}MeanNormal.{}", layer, axis);
+    if (plan.image.findChannel(name)) plan.meanNormal.push_back(std::move(name));
+  }
+  if (plan.meanNormal.size() != 3) plan.meanNormal.clear();
+}
+
 bool wantsOutlines(const Look& look) {
   return asksFor(look, "outline") || anyStyleHas(look, &StyleParams::outlineColour);
 }
@@ -289,6 +302,7 @@ FramePlan planOpenFrame(const Look& asked, ImageFile image, std::optional<Sideca
   nameObjectsFromSidecar(plan);
   nameObjectsFromLook(look, plan);
   planCoverage(look, names, plan);
+  planMeanNormal(plan);
   if ((wantsOutlines(look) || endsPaint(look)) && !plan.sidecar)
     plan.depth = findAov(plan.image, names, AovKind::depth);
   plan.hasCasters = plan.sidecar && !plan.sidecar->casters.empty();

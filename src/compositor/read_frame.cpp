@@ -212,6 +212,11 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   CryptomattePlanes coverage;
   constexpr int edgeRanks = 4;  // a pixel where more than four things meet shows no edge to clean
   if (plan.coverage) coverage = requestCryptomatte(reader, plan.coverage->name, edgeRanks);
+  if (!plan.meanNormal.empty()) {
+    reader.floats(plan.meanNormal[0], planes.meanNormal.x);
+    reader.floats(plan.meanNormal[1], planes.meanNormal.y);
+    reader.floats(plan.meanNormal[2], planes.meanNormal.z);
+  }
   planes.lights.resize(plan.lights.size());
   for (size_t i = 0; i < plan.lights.size(); ++i)
     for (const std::string& channel : plan.lights[i].maskChannels)
