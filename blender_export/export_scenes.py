@@ -32,6 +32,7 @@ def prepare_beauty(scene, view_layer, options):
         other.use = other == view_layer
     view_layer.use_pass_cryptomatte_object = True
     view_layer.use_pass_cryptomatte_material = True
+    view_layer.use_pass_normal = True
     view_layer.pass_cryptomatte_depth = max(view_layer.pass_cryptomatte_depth, 2)
     if scene.render.engine != 'CYCLES':
         notes.append(f"the beauty is rendered with Cycles instead of {scene.render.engine}, which "

@@ -23,16 +23,16 @@ namespace kagefude {
 /// November 2026): CVE-2025-59777 and CVE-2025-62689 (a crafted packet ends a program with 1.0.2
 /// or earlier), nor what 1.0.4 to 1.0.9 mend (smuggled requests, which need a proxy before us, and
 /// crashes and writes out of bounds "for certain requests in specific configurations"). The two
-/// CVEs do not say where they lie. Experimental WebSockets, which 0.9.75 has and 1.0.10 has not, are
-/// built only with --enable-experimental, which Debian does not give, and would be a library of
+/// CVEs do not say where they lie. Experimental WebSockets, which 0.9.75 has and 1.0.10 has not,
+/// are built only with --enable-experimental, which Debian does not give, and would be a library of
 /// their own; we load libmicrohttpd.so.12 alone, without TLS, passwords, forms or upgrades. If they
 /// lie elsewhere, whoever may connect to a port of this machine could end the page: the token is
 /// looked at after the library has read the request. The look's file would stay as it is.
-/// It serves no files and parses no bodies, hands the body over piece by piece so that its limit is ours, takes
-/// an address to listen on and a limit of memory for headers, and is a shared library, which Debian
-/// mends without us. It has no WebSockets, and none are wanted: the page asks for the next picture
-/// and the answer waits until there is one (a long poll), which is one round trip, and cannot queue
-/// pictures up, for a page that is slow asks later.
+/// It serves no files and parses no bodies, hands the body over piece by piece so that its limit is
+/// ours, takes an address to listen on and a limit of memory for headers, and is a shared library,
+/// which Debian mends without us. It has no WebSockets, and none are wanted: the page asks for the
+/// next picture and the answer waits until there is one (a long poll), which is one round trip, and
+/// cannot queue pictures up, for a page that is slow asks later.
 class HttpServer {
  public:
   using Answer = std::function<HttpResponse(const HttpRequest&)>;
