@@ -200,10 +200,16 @@ bool endsPaint(const Look& look) {
   return anyPasses(look, [](const PassParams& passes) { return passes.edges.acts(); });
 }
 
-/// What shines without the lights, where a tone asks for it.
+/// What shines without the lights, where a tone asks for it. A frame that lacks it is painted
+/// without: the exporter writes the pass only for shots where something gives off light.
 void planFloor(const Look& look, const AovNames& names, FramePlan& plan) {
-  if (anyPasses(look, [](const PassParams& passes) { return passes.tone.emission > 0.0f; }))
-    plan.emission = requireAov(plan.image, names, AovKind::emission);
+  if (anyPasses(look, [](const PassParams& passes) { return passes.tone.emission > 0.0f; })) {
+    plan.emission = findAov(plan.image, names, AovKind::emission);
+    if (!plan.emission)
+      plan.warnings.push_back(
+          "tone.emission is set, but the frame has no Emission pass, so it lifts nothing; where "
+          "something gives off light, export the shot again, or name the pass with frame.emission");
+  }
   if (!anyPasses(look, [](const PassParams& passes) { return passes.tone.world > 0.0f; })) return;
   const std::vector<float>& own = look.scene.world;
   if (!own.empty())
@@ -253,7 +259,8 @@ const SidecarObject* FramePlan::findObject(uint32_t id) const {
 FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame,
                     const std::string& view) {
   const std::string& taken = view.empty() ? look.frame.view : view;
-  ImageFile image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken));
+  ImageFile image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken),
+                              look.keyWithPlace("frame.files"));
   const bool viewless = view.empty() && !look.frame.view.empty() && image.views.empty();
   FramePlan plan = planOpenFrame(look, std::move(image), findSidecar(path), frame);
   if (viewless)

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/place_error.h"
 #include "compositor/casting_scene.h"
 #include "compositor/doubt_bounds.h"
 #include "compositor/doubt_depth_map.h"
@@ -97,7 +98,7 @@ Floats depthMapOf(const FrameLight& light, std::vector<std::string>& warnings) {
     return {};
   }
   if (!light.readsDepthMap) return {};
-  return readDepthMap(*light.depthMap);
+  return withPlace(light.depthMap->named, [&] { return readDepthMap(*light.depthMap); });
 }
 
 /// A pixel without a normal shows no surface, whatever its id says.
@@ -257,7 +258,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
   checkSpaces(plan, planes);
-  for (std::string& doubt : doubtDepthMaps(plan, planes))
+  for (std::string& doubt : setDoubtedMapsAside(plan, planes))
     planes.warnings.push_back(std::move(doubt));
   return planes;
 }
