@@ -23,12 +23,19 @@ int coarsestStep(size_t pixels) {
 class WantedCells {
  public:
   WantedCells(const Receivers& in, int coarsest) {
-    for (int side = 2; side <= coarsest; side *= 2)
-      levels_.push_back(levels_.empty()
-                            ? joined(in.labels.width, in.labels.height,
-                                     [&](int x, int y) { return in.wants(x, y); })
-                            : joined(levels_.back().width(), levels_.back().height(),
-                                     [&](int x, int y) { return levels_.back()(x, y) != 0; }));
+    if (coarsest < 2) return;
+    levels_.reserve(static_cast<size_t>(std::countr_zero(unsigned(coarsest))));
+    levels_.push_back(joined(in.labels.width, in.labels.height, [&](int y, uint8_t* wants) {
+      const uint32_t* const labels = in.labels.row(y);
+      const uint8_t* const wanted = in.wanted.empty() ? nullptr : in.wanted.row(y);
+      for (int x = 0; x < in.labels.width; ++x)
+        wants[x] = (labels[x] != 0) & (wanted ? wanted[x] != 0 : true);
+    }));
+    for (int side = 4; side <= coarsest; side *= 2)
+      levels_.push_back(joined(levels_.back().width(), levels_.back().height(),
+                               [&finer = levels_.back()](int y, uint8_t* wants) {
+                                 std::copy_n(finer.row(y), finer.width(), wants);
+                               }));
   }
 
   /// Whether a pixel less than `step` from one of the answers of that step wants one.
@@ -41,13 +48,23 @@ class WantedCells {
   }
 
  private:
-  /// Halves a plane; what any of the four wants is wanted.
-  template <class Wants>
-  static Bytes joined(int width, int height, const Wants& wants) {
-    Bytes cells((width + 1) / 2, (height + 1) / 2, uint8_t{0});
+  static void halve(const uint8_t* upper, const uint8_t* lower, int count, uint8_t* out) {
+    for (int x = 0; x < count; ++x)
+      out[x] = upper[2 * x] | upper[2 * x + 1] | lower[2 * x] | lower[2 * x + 1];
+  }
+  /// Halves a plane of 0 and 1, of which read(y, row) gives a row; what any of the four wants is
+  /// wanted.
+  template <class Read>
+  static Bytes joined(int width, int height, const Read& read) {
+    Bytes cells((width + 1) / 2, (height + 1) / 2);
     parallelRows(cells.height(), [&](int y0, int y1) {
-      for (int y = 2 * y0; y < std::min(2 * y1, height); ++y)
-        for (int x = 0; x < width; ++x) cells(x / 2, y / 2) |= wants(x, y);
+      const auto wide = static_cast<size_t>(2 * cells.width());
+      std::vector<uint8_t> upper(wide, uint8_t{0}), lower(wide, uint8_t{0});
+      for (int y = y0; y < y1; ++y) {
+        read(2 * y, upper.data());
+        read(std::min(2 * y + 1, height - 1), lower.data());
+        halve(upper.data(), lower.data(), cells.width(), cells.row(y));
+      }
     });
     return cells;
   }
@@ -144,12 +161,13 @@ BackProjection backProject(Vec3View position, Vec3View normal, View<const uint32
   std::list<AnswerGrid> grids;
   for (int step = coarsest; step > 1; step /= 2)
     grids.emplace_back(projector, in, cells, step, grids.empty() ? nullptr : &grids.back());
-  BackProjection result{Floats(width, height, 1.0f), Bytes(width, height, uint8_t{0})};
+  BackProjection result{Floats(width, height), Bytes(width, height)};
   parallelRows(height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)
       for (int x = 0; x < width; ++x) {
-        if (!in.wants(x, y)) continue;
-        const PixelAnswer answer = !grids.empty() ? grids.back().at(x, y) : projector.at(in, x, y);
+        const PixelAnswer answer = !in.wants(x, y)  ? PixelAnswer{}
+                                   : !grids.empty() ? grids.back().at(x, y)
+                                                    : projector.at(in, x, y);
         result.visibility(x, y) = answer.visibility;
         result.contradicted(x, y) = answer.contradicted;
       }

@@ -27,27 +27,30 @@ constexpr float faces = 0.7f;      ///< from here on it does not
 constexpr float alone = 1.3f;         ///< of a pixel by itself: a tenth of its masks may contradict
 constexpr float mostInUmbra = 0.08f;  ///< of a light that no mask sees, between the masks' places
 
+void addMarks(const uint8_t* from, int count, uint8_t* to) {
+  for (int i = 0; i < count; ++i) to[i] |= from[i];
+}
+
 /// Pixels within `margin` rows and columns of a marked one.
 Bytes grown(View<const uint8_t> marked) {
   const int width = marked.width, height = marked.height;
   Bytes across(width, height, uint8_t{0}), result(width, height);
   parallelRows(height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)
-      for (int x = 0; x < width; ++x)
-        if (marked(x, y))
-          std::fill(across.row(y) + std::max(0, x - margin),
-                    across.row(y) + std::min(width, x + margin + 1), uint8_t{1});
+      for (int x = 0, done = 0; x < width; ++x) {
+        if (!marked(x, y)) continue;
+        const int end = std::min(width, x + margin + 1);
+        std::fill(across.row(y) + std::max(done, x - margin), across.row(y) + end, uint8_t{1});
+        done = end;
+      }
   });
   parallelRows(height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y) {
       const uint8_t* rows[2 * margin + 1];
       for (int k = 0; k <= 2 * margin; ++k)
         rows[k] = across.row(std::clamp(y + k - margin, 0, height - 1));
-      for (int x = 0; x < width; ++x) {
-        uint8_t any = 0;
-        for (const uint8_t* row : rows) any |= row[x];
-        result(x, y) = any;
-      }
+      std::copy_n(rows[0], width, result.row(y));
+      for (int k = 1; k <= 2 * margin; ++k) addMarks(rows[k], width, result.row(y));
     }
   });
   return result;
@@ -103,12 +106,16 @@ void holdToMap(std::span<const PlacedMask> masks, Vec3View position, Vec3View no
       for (int x = 0; x < surfaces.width; ++x) {
         if (!wanted(x, y) || surfaces(x, y) == 0) continue;
         float &visibility = shape.visibility(x, y), &confidence = shape.confidence(x, y);
+        // Most of the margin: both agree, and nothing is in doubt.
+        if (confidence == 1.0f && back.visibility(x, y) == visibility) continue;
+        const float borneOut = weightOf(doubt(x, y), around(x, y));
+        if (borneOut == 0.0f) continue;
         const float grazing =
             (faces - facing(map, position(x, y), normal(x, y))) / (faces - grazes);
         const float alike = 1 - std::fabs(back.visibility(x, y) - visibility) / apart;
         const float byMasks =
             std::max(ofGrazing * std::clamp(grazing, 0.0f, 1.0f), ofAlike * std::max(alike, 0.0f));
-        const float weight = weightOf(doubt(x, y), around(x, y)) * (1 - byMasks);
+        const float weight = borneOut * (1 - byMasks);
         const bool umbra = visibility == 0.0f && shape.unsure(x, y) == 0;
         const float brightest = umbra ? mostInUmbra : 1.0f;
         visibility += weight * (std::min(back.visibility(x, y), brightest) - visibility);

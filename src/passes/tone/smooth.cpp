@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <unordered_map>
 #include <vector>
 
@@ -51,6 +52,13 @@ KAGEFUDE_CLONES bool allAre(const uint32_t* labels, uint32_t label, int count) {
   return other == 0;
 }
 
+/// Whether all are 0 to the bit.
+KAGEFUDE_CLONES bool allZero(const float* value, int count) {
+  uint32_t any = 0;
+  for (int i = 0; i < count; ++i) any |= std::bit_cast<uint32_t>(value[i]);
+  return any == 0;
+}
+
 KAGEFUDE_CLONES void divideRow(const float* sums, const float* columns, float rows, int count,
                                float* means) {
   for (int i = 0; i < count; ++i) means[i] = sums[i] / (rows * columns[i]);
@@ -69,6 +77,12 @@ class Tile {
       : value_(value), labels_(labels), h_(h), result_(result), own_(own), scratch_(scratch) {}
 
   void run() {
+    if (isEmpty(
+            insideFrame({own_.x - h_, own_.y - h_, own_.width + 2 * h_, own_.height + 2 * h_}))) {
+      for (int y = own_.y; y < own_.y + own_.height; ++y)
+        std::fill_n(result_.row(y) + own_.x, own_.width, 0.0f);
+      return;
+    }
     const uint32_t first = labels_(own_.x, own_.y);
     if (first != 0 && isUniform(own_, first)) {
       sumLabel(first, own_);
@@ -145,6 +159,13 @@ class Tile {
   bool isUniform(const Window& w, uint32_t label) const {
     for (int y = w.y; y < w.y + w.height; ++y)
       if (!allAre(labels_.row(y) + w.x, label, w.width)) return false;
+    return true;
+  }
+
+  /// Whether there is nothing to average.
+  bool isEmpty(const Window& w) const {
+    for (int y = w.y; y < w.y + w.height; ++y)
+      if (!allZero(value_.row(y) + w.x, w.width)) return false;
     return true;
   }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <cstdlib>
+
 #include "base/error.h"
 #include "passes/random_image.h"
 
@@ -43,6 +45,20 @@ TEST(Smooth, MeanByHand) {
   SmoothParams params;
   params.h = 1;
   EXPECT_FLOAT_EQ(smoothWithinSurfaces(value, labels, params)(1, 1), 3.0f);
+}
+
+TEST(Smooth, WhatIsNothingFarAroundStaysNothingAndWhatReachesOverATileCounts) {
+  // One value beside the corner where four tiles meet; its window reaches into all of them.
+  constexpr int side = 400, at = 129, h = 3;
+  Floats value(side, side, 0.0f);
+  value(at, at) = 49.0f;
+  const Labels labels(side, side, 1);
+  const Floats means = smoothWithinSurfaces(value, labels, SmoothParams{h});
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const bool near = std::abs(x - at) <= h && std::abs(y - at) <= h;
+      ASSERT_EQ(means(x, y), near ? 1.0f : 0.0f) << x << " " << y;
+    }
 }
 
 TEST(Smooth, EqualsTheNaiveMeanWithinTheBound) {
