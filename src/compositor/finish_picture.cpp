@@ -60,20 +60,17 @@ PaintViews viewsOf(BrushResult& brush) { return {brush.r, brush.g, brush.b, brus
 /// bare shows the ground.
 void layOnGround(const FinishInput& in, BrushResult& brush) {
   const PaperParams& paper = in.look.passes.paper;
-  const PaperTooth tooth = frameTooth(in);
-  if (paper.strength > 0.0f) {
-    depositPaint(viewsOf(brush), in.tone, brush.grain, {tooth.height, tooth.slope}, paper);
-  }
+  const PaperSurface surface = framePaper(in);
+  if (paper.strength > 0.0f) depositPaint(viewsOf(brush), in.tone, brush.grain, surface, paper);
   const bool edges = paintsEdges(in.styled);
   BrushResult own;
   if (edges)
     own = keepBeforeEdges(in.plan, in.planes, brush);
   else
     letThingsMeet(in, brush);
-  const ColourPlanes ground = frameGround(in, brush.a, tooth);
-  const ColourViews behind{ground.r, ground.g, ground.b, ground.a};
-  if (edges) paintStyleEdges(in.plan, in.planes, in.styled, own, behind, brush);
-  if (!ground.r.empty()) layOver(viewsOf(brush), behind);
+  const FrameGround ground(in, brush.a, surface);
+  if (edges) paintStyleEdges(in.plan, in.planes, in.styled, own, ground.get(), brush);
+  if (ground.get()) layOver(viewsOf(brush), *ground.get());
 }
 
 void noteBadPixels(const FramePlanes& planes, std::vector<std::string>& warnings) {

@@ -147,7 +147,7 @@ void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {
 }
 
 void paintStyleEdges(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
-                     const BrushResult& own, const ColourViews& ground, BrushResult& brush) {
+                     const BrushResult& own, const PaintGround* ground, BrushResult& brush) {
   const std::vector<CoverageRank> ranks = coverageRanks(planes);
   std::vector<uint32_t> ids;
   if (!ranks.empty()) ids = cryptomatteIdsOf(plan, planes.objectId, styled);

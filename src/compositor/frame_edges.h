@@ -3,7 +3,7 @@
 #include "compositor/frame_plan.h"
 #include "compositor/styled_surfaces.h"
 #include "passes/brush/brush_map.h"
-#include "passes/edges/coverage_blend.h"
+#include "passes/edges/behind_paint.h"
 
 namespace kagefude {
 
@@ -32,9 +32,9 @@ void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<c
 void putBeautyBehind(const FramePlanes& planes, BrushResult& brush);
 
 /// Ends each style's paint as its [edges] say (paintEdges). `own` is the paint before things met;
-/// its grain must be there. `ground` may be empty.
+/// its grain must be there. `ground` may be null.
 void paintStyleEdges(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
-                     const BrushResult& own, const ColourViews& ground, BrushResult& brush);
+                     const BrushResult& own, const PaintGround* ground, BrushResult& brush);
 
 /// Draws the styles' contour lines over the strokes, each in the colour of the style of its nearest
 /// surface. Returns the lines' coverage (layer `outline`); empty when no style draws any and

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "image/clones.h"
 #include "image/parallel.h"
 #include "passes/strip/strip.h"
 
@@ -98,18 +99,47 @@ Rgba behindPaint(const Backdrop& backdrop, float alpha, int x, int y) {
   return backdrop.beside(x, y) * (1.0f - covered) + picture * gaps;
 }
 
+/// What paint leaves open at each pixel; false where it leaves nothing.
+KAGEFUDE_CLONES bool leftOpen(const float* alpha, int count, float* behind) {
+  int any = 0;
+  for (int i = 0; i < count; ++i) {
+    behind[i] = 1.0f - alpha[i];
+    any |= behind[i] != 0.0f;
+  }
+  return any != 0;
+}
+
+/// Pixels that paint covers keep their bits.
+KAGEFUDE_CLONES void layRun(float* paint, const float* under, const float* behind, int count) {
+  for (int i = 0; i < count; ++i) {
+    const float laid = paint[i] + behind[i] * under[i];
+    paint[i] = behind[i] != 0.0f ? laid : paint[i];
+  }
+}
+
 }  // namespace
 
-void layOver(const PaintViews& paint, const ColourViews& ground) {
+void PictureGround::read(int x, int y, int count, ColourRun& run) const {
+  std::copy_n(picture_.r.row(y) + x, count, run.r);
+  std::copy_n(picture_.g.row(y) + x, count, run.g);
+  std::copy_n(picture_.b.row(y) + x, count, run.b);
+  std::copy_n(picture_.a.row(y) + x, count, run.a);
+}
+
+void layOver(const PaintViews& paint, const PaintGround& ground) {
+  const int width = paint.a.width;
   parallelRows(paint.a.height, [&](int first, int end) {
+    ColourRun under;
+    float behind[ColourRun::most];
     for (int y = first; y < end; ++y)
-      for (int x = 0; x < paint.a.width; ++x) {
-        const float behind = 1.0f - paint.a(x, y);
-        if (behind == 0.0f) continue;  // most of a picture: its ground need not be read
-        paint.r(x, y) += behind * ground.r(x, y);
-        paint.g(x, y) += behind * ground.g(x, y);
-        paint.b(x, y) += behind * ground.b(x, y);
-        paint.a(x, y) += behind * ground.a(x, y);
+      for (int x = 0; x < width; x += ColourRun::most) {
+        const int count = std::min(width - x, ColourRun::most);
+        if (!leftOpen(paint.a.row(y) + x, count, behind)) continue;
+        ground.read(x, y, count, under);
+        layRun(paint.r.row(y) + x, under.r, behind, count);
+        layRun(paint.g.row(y) + x, under.g, behind, count);
+        layRun(paint.b.row(y) + x, under.b, behind, count);
+        layRun(paint.a.row(y) + x, under.a, behind, count);
       }
   });
 }

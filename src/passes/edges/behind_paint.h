@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
 #include "passes/edges/coverage_blend.h"
 
@@ -11,8 +12,33 @@ struct PaintViews {
   View<float> r, g, b, a;
 };
 
+/// Colours of some pixels of a row.
+struct ColourRun {
+  static constexpr int most = 256;
+  float r[most], g[most], b[most], a[most];
+};
+
+/// What lies under paint. It is asked where paint leaves something open, so that it need not be
+/// made, or kept, for the whole picture.
+class PaintGround {
+ public:
+  virtual ~PaintGround() = default;
+  /// Associated colours of the `count` pixels from (x, y) to the right, at most ColourRun::most.
+  virtual void read(int x, int y, int count, ColourRun& run) const = 0;
+};
+
+/// A ground that is there as a picture.
+class PictureGround : public PaintGround {
+ public:
+  explicit PictureGround(ColourPlanes picture) : picture_(std::move(picture)) {}
+  void read(int x, int y, int count, ColourRun& run) const override;
+
+ private:
+  const ColourPlanes picture_;
+};
+
 /// Associated "over": paint + (1 - alpha) x ground, in place.
-void layOver(const PaintViews& paint, const ColourViews& ground);
+void layOver(const PaintViews& paint, const PaintGround& ground);
 
 /// **[ours]** Lays paint over a rendered picture, so that each thing is seen once.
 ///

@@ -81,6 +81,10 @@ const BorderSite* BorderSites::find(int x, int y, uint32_t nearest) const {
   return found;
 }
 
+float BorderSites::enoughOf(const PaintedEdgeParams& front) {
+  return 2.0f + 2.0f * front.rough * (1.0f + std::fabs(front.overrun)) + front.lost;
+}
+
 BorderSite BorderSites::siteAt(int x, int y) const {
   BorderSite site;
   site.own = {x, y};
@@ -89,7 +93,7 @@ BorderSite BorderSites::siteAt(int x, int y) const {
   const PixelAt& at = site.inFront ? site.own : site.other;
   const PaintedEdgeParams& front = borders_.paramsAt(at);
   site.grain = meanGrain(at, front.rough);
-  const float enough = 2.0f + 2.0f * front.rough * (1.0f + std::fabs(front.overrun)) + front.lost;
+  const float enough = enoughOf(front);
   site.half = halfThickness(site, site.inFront, enough);
   site.behind = halfThickness(site, !site.inFront, enough);
   if (front.lost > 0.0f) site.melted = lostShare(site, front);
@@ -195,7 +199,7 @@ float BorderSites::halfThickness(const BorderSite& site, bool ownSide, float eno
 float BorderSites::lostShare(const BorderSite& site, const PaintedEdgeParams& front) const {
   const bool background =
       in_.things(site.own.x, site.own.y) == 0 || in_.things(site.other.x, site.other.y) == 0;
-  if ((background && in_.ground.r.empty()) || !(front.lostTone > 0.0f)) return 0.0f;
+  if ((background && !in_.ground) || !(front.lostTone > 0.0f)) return 0.0f;
   const float step = std::fabs(meanBrightness(site.own) - meanBrightness(site.other));
   return 1.0f - easedIn(step / front.lostTone);
 }
@@ -208,11 +212,19 @@ float BorderSites::meanBrightness(const PixelAt& at) const {
   for (int y = at.y - 2; y <= at.y + 2; ++y)
     for (int x = at.x - 2; x <= at.x + 2; ++x) {
       if (!in_.things.contains(x, y) || in_.things(x, y) != own) continue;
-      const Rgba paint = paintAt(in_.own, x, y);
-      sum += in_.ground.r.empty() ? paint : paint + paintAt(in_.ground, x, y) * (1.0f - paint[3]);
+      sum += shownAt(x, y);
       count += 1.0f;
     }
   return paintBrightness(sum / count);
+}
+
+/// A thing's paint over its ground.
+Rgba BorderSites::shownAt(int x, int y) const {
+  const Rgba paint = paintAt(in_.own, x, y);
+  if (!in_.ground || paint[3] == 1.0f) return paint;
+  ColourRun ground;
+  in_.ground->read(x, y, 1, ground);
+  return paint + Rgba{ground.r[0], ground.g[0], ground.b[0], ground.a[0]} * (1.0f - paint[3]);
 }
 
 /// A site with the means of its neighbours on the same border, and the line through their grain.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "passes/edges/edge_border.h"
+#include "passes/strip/strip.h"
 
 namespace kagefude {
 
@@ -31,6 +32,9 @@ class BorderSites {
   BorderSites(const EdgePaint& in, const EdgeBorders& borders, View<const uint8_t> at,
               View<uint32_t> squared);
 
+  /// As far as sites measure the thickness of things: distances beyond it tell nothing more.
+  static float enoughOf(const PaintedEdgeParams& front);
+
   /// The site of the own thing that is nearest to (x, y), from the index y * width + x of the
   /// nearest of any; null where that has none beside it.
   const BorderSite* find(int x, int y, uint32_t nearest) const;
@@ -42,6 +46,7 @@ class BorderSites {
   float halfThickness(const BorderSite& site, bool ownSide, float enough) const;
   float lostShare(const BorderSite& site, const PaintedEdgeParams& front) const;
   float meanBrightness(const PixelAt& at) const;
+  Rgba shownAt(int x, int y) const;
   BorderSite evened(const BorderSite& site, const std::vector<BorderSite>& raw) const;
 
   const EdgePaint& in_;

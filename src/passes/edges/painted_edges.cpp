@@ -191,9 +191,11 @@ void requireSizes(const EdgePaint& in, const PaintViews& paint) {
 
 void paintEdges(const EdgePaint& in, const PaintViews& paint) {
   requireSizes(in, paint);
-  float reach = 0;
-  for (const PaintedEdgeParams& params : in.params)
+  float reach = 0, measured = 0;
+  for (const PaintedEdgeParams& params : in.params) {
     if (params.acts()) reach = std::max(reach, EdgePainter::reachOf(params) + 1.5f);
+    measured = std::max({measured, reach, BorderSites::enoughOf(params)});
+  }
   if (!(reach > 0.0f)) return;
   const int width = in.things.width, height = in.things.height;
   const EdgeBorders borders(in);
@@ -202,15 +204,18 @@ void paintEdges(const EdgePaint& in, const PaintViews& paint) {
   SiteSearch search;
   search.kinds = at;
   search.wantedKinds = wanted;
-  Labels squared(width, height, noSite), nearest(width, height, noSite);
-  findNearestSites(search, findLabelBoxes(search), squared, nearest);
+  Labels squared(width, height), nearest(width, height);
+  parallelRows(
+      height, [&](int first, int end) { std::fill(squared.row(first), squared.row(end), noSite); });
+  findNearestSites(search, boxesWithin(wanted, 1, measured), squared, nearest);
   const BorderSites sites(in, borders, at, squared);
   const EdgePainter painter(in, borders, sites);
   const float most = reach * reach;
   parallelRows(height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < width; ++x)
-        if (nearest(x, y) != noSite && (at(x, y) || static_cast<float>(squared(x, y)) <= most))
+        if (wanted(x, y) && nearest(x, y) != noSite &&
+            (at(x, y) || static_cast<float>(squared(x, y)) <= most))
           painter.paint(x, y, nearest(x, y), paint);
   });
 }

@@ -20,7 +20,7 @@ struct EdgePaint {
   View<const float> grain;     ///< of the strokes, mean 0 and variance 1
   std::span<const uint32_t> coverageIds;   ///< each thing as the ranks name it
   std::span<const CoverageRank> coverage;  ///< empty: edges run between pixels
-  ColourViews ground;                      ///< behind things; empty: nothing is known of it
+  const PaintGround* ground = nullptr;     ///< behind things; null: nothing is known of it
 };
 
 /// **[ours]** Ends paint as a brush does. paint: associated, its things met by coverage; in place.

@@ -1,5 +1,6 @@
 #include "passes/ground/paper_deposit.h"
 
+#include "image/clones.h"
 #include "image/parallel.h"
 
 namespace kagefude {
@@ -20,35 +21,39 @@ float depositShare(float height, float tone, float grain, const PaperParams& par
 namespace {
 
 /// Pixels that are worked on at a time: shares first, then plane by plane, each a plain loop.
-constexpr int run = 256;
+constexpr int run = ToothRun::most;
 
 /// What the paint's alpha and its colours are multiplied by.
 struct Deposit {
   float share[run], shaded[run];
 };
 
-void depositRun(const float* height, const float* slope, const float* tone, const float* grain,
-                int count, const PaperParams& params, Deposit& out) {
+KAGEFUDE_CLONES void depositRun(const ToothRun& tooth, const float* tone, const float* grain,
+                                int count, const PaperParams& params, Deposit& out) {
   for (int i = 0; i < count; ++i)
-    out.share[i] = depositShare(height[i], tone[i], grain ? grain[i] : 0.0f, params);
-  for (int i = 0; i < count; ++i) out.shaded[i] = out.share[i] * reliefFactor(slope[i], params);
+    out.share[i] = depositShare(tooth.height[i], tone[i], grain[i], params);
+  for (int i = 0; i < count; ++i)
+    out.shaded[i] = out.share[i] * reliefFactor(tooth.slope[i], params);
 }
 
-void multiplyRun(float* values, const float* factors, int count) {
+KAGEFUDE_CLONES void multiplyRun(float* values, const float* factors, int count) {
   for (int i = 0; i < count; ++i) values[i] *= factors[i];
 }
 
 }  // namespace
 
 void depositPaint(const PaintViews& paint, View<const float> tone, View<const float> grain,
-                  const ToothViews& tooth, const PaperParams& params) {
+                  const PaperSurface& surface, const PaperParams& params) {
+  const float level[run] = {};
   parallelRows(paint.a.height, [&](int first, int end) {
+    ToothRun tooth;
     Deposit deposit;
     for (int y = first; y < end; ++y)
       for (int x = 0; x < paint.a.width; x += run) {
         const int count = paint.a.width - x < run ? paint.a.width - x : run;
-        depositRun(tooth.height.row(y) + x, tooth.slope.row(y) + x, tone.row(y) + x,
-                   grain.empty() ? nullptr : grain.row(y) + x, count, params, deposit);
+        surface.read(x, y, count, tooth);
+        depositRun(tooth, tone.row(y) + x, grain.empty() ? level : grain.row(y) + x, count, params,
+                   deposit);
         for (const View<float>* plane : {&paint.r, &paint.g, &paint.b})
           multiplyRun(plane->row(y) + x, deposit.shaded, count);
         multiplyRun(paint.a.row(y) + x, deposit.share, count);
@@ -58,6 +63,18 @@ void depositPaint(const PaintViews& paint, View<const float> tone, View<const fl
 
 float reliefFactor(float slope, const PaperParams& params) {
   return 1.0f + 0.2f * params.relief * slope;
+}
+
+KAGEFUDE_CLONES void shadeFlat(const V3f& colour, const float* slope, int count,
+                               const PaperParams& params, ColourRun& run) {
+  const float r = colour.x, g = colour.y, b = colour.z;
+  for (int i = 0; i < count; ++i) {
+    const float factor = reliefFactor(slope[i], params);
+    run.r[i] = r * factor;
+    run.g[i] = g * factor;
+    run.b[i] = b * factor;
+    run.a[i] = 1.0f;
+  }
 }
 
 void shadeRelief(const PaintViews& picture, View<const float> slope, const PaperParams& params) {

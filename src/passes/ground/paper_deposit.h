@@ -12,19 +12,18 @@ namespace kagefude {
 /// it fills deeper hollows. A NaN tone counts as 0.
 float depositShare(float height, float tone, float grain, const PaperParams& params);
 
-/// The paper's surface, as PaperTooth.
-struct ToothViews {
-  View<const float> height, slope;
-};
-
 /// Takes paint off where the paper does not hold it: all four planes are multiplied, so that it
 /// stays associated; and lays the tooth's light and shade over its colours. tone: what the paint
 /// was mixed for, 0..1. grain may be empty: level strokes.
 void depositPaint(const PaintViews& paint, View<const float> tone, View<const float> grain,
-                  const ToothViews& tooth, const PaperParams& params);
+                  const PaperSurface& surface, const PaperParams& params);
 
 /// Light and shade of the tooth, 1 on a level place; multiplies colours.
 float reliefFactor(float slope, const PaperParams& params);
+
+/// One colour with the tooth's light and shade, opaque.
+void shadeFlat(const V3f& colour, const float* slope, int count, const PaperParams& params,
+               ColourRun& run);
 
 /// Lays light and shade of the tooth over colours, alpha kept.
 void shadeRelief(const PaintViews& picture, View<const float> slope, const PaperParams& params);

@@ -1,5 +1,6 @@
 #include "passes/ground/paper_tooth.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "image/parallel.h"
@@ -104,13 +105,13 @@ ToothSample onDirection(const ToothTile& tile, const ToothPlaces& in, int x, int
 
 }  // namespace
 
-PaperTooth screenTooth(const ToothTile& tile, int width, int height, int offsetX, int offsetY) {
-  PaperTooth tooth{Floats(width, height), Floats(width, height)};
-  parallelRows(height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      tile.copyRow(offsetX, y + offsetY, width, tooth.height.row(y), tooth.slope.row(y));
-  });
-  return tooth;
+void PaperSurface::read(int x, int y, int count, ToothRun& run) const {
+  if (tile_) {
+    tile_->copyRow(x + offsetX_, y + offsetY_, count, run.height, run.slope);
+  } else {
+    std::copy_n(tooth_.height.row(y) + x, count, run.height);
+    std::copy_n(tooth_.slope.row(y) + x, count, run.slope);
+  }
 }
 
 PaperTooth worldTooth(const ToothTile& tile, const ToothPlaces& places) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "image/vec.h"
 #include "passes/brush/brush_anchor.h"
@@ -16,6 +18,34 @@ struct PaperTooth {
   Floats slope;
 };
 
+/// The paper's surface at some pixels of a row.
+struct ToothRun {
+  static constexpr int most = 256;
+  float height[most], slope[most];
+};
+
+/// The paper under a picture: a tooth with a value a pixel, or one that stands still on the screen
+/// and is read from its tile, texel by texel.
+class PaperSurface {
+ public:
+  /// No paper.
+  PaperSurface() = default;
+  explicit PaperSurface(PaperTooth tooth) : tooth_(std::move(tooth)) {}
+  /// (offsetX, offsetY): the picture's first pixel, counted from the display window's corner, so
+  /// that a crop shows the same paper.
+  PaperSurface(ToothTile tile, int offsetX, int offsetY)
+      : tile_(std::move(tile)), offsetX_(offsetX), offsetY_(offsetY) {}
+
+  bool empty() const { return !tile_ && tooth_.height.empty(); }
+  /// Of the `count` pixels from (x, y) to the right, at most ToothRun::most. Not of no paper.
+  void read(int x, int y, int count, ToothRun& run) const;
+
+ private:
+  PaperTooth tooth_;
+  std::optional<ToothTile> tile_;
+  int offsetX_ = 0, offsetY_ = 0;
+};
+
 /// What the tooth lies on where it is fixed to the world.
 struct ToothPlaces {
   Vec3View position, normal;         ///< world
@@ -25,10 +55,6 @@ struct ToothPlaces {
   const CameraRays* rays = nullptr;
   bool upIsY = false;  ///< world's up axis; else Z
 };
-
-/// Tooth that stands still on the screen: the tile, texel by texel. (offsetX, offsetY): the planes'
-/// first pixel, counted from the display window's corner, so that a crop shows the same paper.
-PaperTooth screenTooth(const ToothTile& tile, int width, int height, int offsetX, int offsetY);
 
 /// **[ours]** Tooth that lies on the world: on objects in the planes of their own axes that the
 /// surface faces, at its place as it rests where strokes lie there; on the background by the

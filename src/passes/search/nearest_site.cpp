@@ -103,6 +103,22 @@ std::vector<LabelBox> boxesOf(View<const uint32_t> labels, const RowEnds& ends) 
   return boxes;
 }
 
+/// Boxes of boxesWithin: rows of one, and its columns' unit.
+constexpr int nearRows = 128, nearColumns = 64;
+
+/// Which strips of columns have a wanted pixel in the rows [y, end).
+std::vector<uint8_t> wantedStrips(View<const uint8_t> kinds, uint8_t wanted, int y, int end) {
+  std::vector<uint8_t> wants(static_cast<size_t>((kinds.width + nearColumns - 1) / nearColumns),
+                             uint8_t{0});
+  for (; y < end; ++y)
+    for (size_t strip = 0; strip < wants.size(); ++strip) {
+      const uint8_t* const first = kinds.row(y) + strip * nearColumns;
+      const uint8_t* const last = std::min(first + nearColumns, kinds.row(y) + kinds.width);
+      if (!wants[strip]) wants[strip] = std::find(first, last, wanted) != last;
+    }
+  return wants;
+}
+
 }  // namespace
 
 std::vector<LabelBox> findLabelBoxes(const SiteSearch& search) {
@@ -124,6 +140,37 @@ std::vector<LabelBox> findLabelBoxes(View<const uint32_t> labels, const PixelSet
   return boxesOf(labels, [&](int y) {
     return [&wanted, y](int x, int end) { return wanted.ends(x, end, y); };
   });
+}
+
+std::vector<LabelBox> boxesWithin(View<const uint8_t> wantedKinds, uint8_t wantedKind,
+                                  float reach) {
+  const int width = wantedKinds.width, height = wantedKinds.height;
+  requireSide(width, height);
+  const int margin = static_cast<int>(std::min(reach, static_cast<float>(longestSide))) + 1;
+  const int across = (width + nearColumns - 1) / nearColumns;
+  std::vector<LabelBox> boxes;
+  for (int y = 0; y < height; y += nearRows) {
+    const int end = std::min(y + nearRows, height);
+    const std::vector<uint8_t> wants = wantedStrips(wantedKinds, wantedKind, y, end);
+    for (int first = 0, last; first < across; first = last + 1) {
+      for (last = first; last < across && wants[static_cast<size_t>(last)];) ++last;
+      if (last == first) continue;
+      const int x0 = first * nearColumns, x1 = std::min(last * nearColumns, width);
+      LabelBox box{0,
+                   0,
+                   std::max(x0 - margin, 0),
+                   std::max(y - margin, 0),
+                   std::min(x1 + margin, width),
+                   std::min(end + margin, height),
+                   x0,
+                   y,
+                   x1,
+                   end};
+      box.pixels = static_cast<uint32_t>(box.x1 - box.x0) * static_cast<uint32_t>(box.y1 - box.y0);
+      boxes.push_back(box);
+    }
+  }
+  return boxes;
 }
 
 bool isScattered(const LabelBox& box) {

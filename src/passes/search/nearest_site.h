@@ -35,13 +35,19 @@ struct LabelBox {
 std::vector<LabelBox> findLabelBoxes(const SiteSearch& search);
 std::vector<LabelBox> findLabelBoxes(View<const uint32_t> labels, const PixelSet& wanted);
 
+/// Boxes for a search without labels whose sites count within `reach` pixels: of the wanted pixels
+/// only, with the sites near them, so that a search round thin things need not go over the frame.
+/// It leaves pixels that are not wanted undefined, and may find a site that is farther away, or
+/// not the nearest of those.
+std::vector<LabelBox> boxesWithin(View<const uint8_t> wantedKinds, uint8_t wantedKind, float reach);
+
 /// Whether a label is so small, or so thin in its box, that its pixels go by lists.
 bool isScattered(const LabelBox& box);
 
 /// Squared distance in pixels, exact, from each wanted pixel to the nearest site of its label; a
-/// wanted pixel that is a site itself gives 0. noSite at other pixels, and where the label has no
-/// site. `index` (may be empty: not wanted) gets that site's y * width + x; of sites equally near
-/// the one with the smaller y, then the smaller x.
+/// wanted pixel that is a site itself gives 0. noSite at other pixels (of boxesWithin undefined),
+/// and where the label has no site. `index` (may be empty: not wanted) gets that site's y * width +
+/// x; of sites equally near the one with the smaller y, then the smaller x.
 ///
 /// Method: two separable integer phases (Saito & Toriwaki 1994; Meijster et al. 2000; Felzenszwalb
 /// & Huttenlocher 2004): signed row distance down each column, then along rows an outward search in

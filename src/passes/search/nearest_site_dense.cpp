@@ -91,7 +91,8 @@ class RowPhase {
     squaresReady_ = envelopeReady_ = false;
     if (search_.labels.empty())
       for (const View<uint32_t>& plane : {squared_, index_})
-        if (!plane.empty()) std::fill(plane.row(y), plane.row(y + 1), noSite);
+        if (!plane.empty())
+          std::fill(plane.row(y) + box_.wantedX0, plane.row(y) + box_.wantedX1, noSite);
     for (int x = box_.wantedX0; x < box_.wantedX1; x += rowBlock) {
       uint16_t wanted[rowBlock];
       const int count = std::min(rowBlock, box_.wantedX1 - x);

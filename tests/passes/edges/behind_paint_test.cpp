@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <cmath>
 #include <functional>
 
@@ -133,6 +135,27 @@ TEST(BehindPaint, AThingThatFoundNoPaintStaysAsRendered) {
   const CoverageRank ranks[] = {{wire.id, wire.coverage}};
   layOverPicture({r.view(), g.view(), b.view(), a.view()}, {wire.r, wire.g, wire.b, wire.a}, ranks);
   EXPECT_EQ(r(7, 7), wire.r(7, 7));
+}
+
+TEST(BehindPaint, OverAGroundOnlyWhatIsLeftOpenShowsIt) {
+  // Wider than one run of pixels, so that the second one is asked for at its own place.
+  constexpr int width = ColourRun::most + 3;
+  Floats r(width, 1), g(width, 1, 0.25f), b(width, 1, 0.0f), a(width, 1);
+  ColourPlanes ground{Floats(width, 1), Floats(width, 1, 1.0f), Floats(width, 1, 0.5f),
+                      Floats(width, 1, 0.5f)};
+  for (int x = 0; x < width; ++x) {
+    a(x, 0) = x % 2 == 0 ? 1.0f : 0.25f;
+    r(x, 0) = 0.125f;
+    ground.r(x, 0) = float(x);
+  }
+  ground.r(2, 0) = std::numeric_limits<float>::infinity();
+  layOver({r, g, b, a}, PictureGround(std::move(ground)));
+  for (int x = 0; x < width; ++x) {
+    const bool covered = x % 2 == 0;
+    ASSERT_EQ(r(x, 0), covered ? 0.125f : 0.125f + 0.75f * float(x)) << x;
+    ASSERT_EQ(g(x, 0), covered ? 0.25f : 1.0f) << x;
+    ASSERT_EQ(a(x, 0), covered ? 1.0f : 0.625f) << x;
+  }
 }
 
 }  // namespace

@@ -165,7 +165,8 @@ TEST(BrokenEdges, AgainstTheBackgroundAnEdgeIsLostOnlyWhereTheGroundIsKnown) {
       opaque(EdgeScene::width, EdgeScene::height, 1.0f);
   unknown.params[0].lost = known.params[0].lost = 8;
   unknown.paint();
-  known.paint({ground, ground, ground, opaque});
+  const PictureGround picture({ground.clone(), ground.clone(), ground.clone(), opaque.clone()});
+  known.paint(&picture);
   EXPECT_TRUE(unknown.isUntouched());
   EXPECT_LT(known.a(EdgeScene::border - 2, 4), 0.9f);
   EXPECT_GT(known.a(EdgeScene::border + 1, 4), 0.1f);

@@ -29,7 +29,7 @@ struct EdgeScene {
         distance(x, y) = first ? 1.0f : 2.0f;
       }
   }
-  void paint(const ColourViews& ground = {}) {
+  void paint(const PaintGround* ground = nullptr) {
     ownR = r.clone();
     ownG = g.clone();
     ownB = b.clone();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/search/nearest_site.h"
+
 namespace kagefude {
 namespace {
 
@@ -34,6 +36,26 @@ TEST(BehindThings, AlphaGoesWithItsColour) {
   open(0, 0) = 1;
   const ColourPlanes out = extendBehindThings({r, r, r, a}, open);
   EXPECT_EQ(out.a(2, 0), 0.5f);
+}
+
+TEST(BehindThings, NearbyIsTheSamePixelAsTheWholeSearchFinds) {
+  constexpr int side = 40;
+  Bytes kinds(side, side);
+  uint32_t state = 7;
+  for (uint8_t* kind = kinds.row(0); kind != kinds.row(side); ++kind)
+    *kind = (state = state * 1664525u + 1013904223u) >> 27 == 0 ? 1 : 0;
+  const Labels whole = nearestOpen(kinds, 1, 0);
+  int near = 0, far = 0;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      if (kinds(x, y) != 0) continue;
+      const int dx = int(whole(x, y) % side) - x, dy = int(whole(x, y) / side) - y;
+      const bool within = dx * dx + dy * dy <= 9;
+      ++(within ? near : far);
+      ASSERT_EQ(openNearby(kinds, 1, x, y), within ? whole(x, y) : noSite) << x << " " << y;
+    }
+  EXPECT_GT(near, 100);
+  EXPECT_GT(far, 20);
 }
 
 }  // namespace

@@ -52,8 +52,8 @@ TEST(PaperDeposit, PaintStaysAssociatedAndReliefKeepsAlpha) {
   height(0, 0) = 0.5f;
   height(1, 0) = 1.0f;
   const PaintViews paint{r, g, b, a};
-  const Floats level(2, 1, 0.0f);
-  depositPaint(paint, tone, {}, {height, level}, paper(1, 0.5f, 0));
+  const PaperSurface surface(PaperTooth{std::move(height), Floats(2, 1, 0.0f)});
+  depositPaint(paint, tone, {}, surface, paper(1, 0.5f, 0));
   EXPECT_FLOAT_EQ(r(0, 0), 0.4f);
   EXPECT_FLOAT_EQ(a(0, 0), 0.4f);
   EXPECT_FLOAT_EQ(g(1, 0), 0.4f);

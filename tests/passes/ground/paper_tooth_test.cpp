@@ -40,12 +40,31 @@ struct Wall {
 
 TEST(PaperTooth, OnTheScreenACropShowsTheSamePaper) {
   const ToothTile tile{PaperParams{}};
-  const PaperTooth whole = screenTooth(tile, 40, 30, 0, 0), part = screenTooth(tile, 10, 8, 11, -3);
-  for (int y = 3; y < 8; ++y)
+  const PaperSurface whole(ToothTile(PaperParams{}), 0, 0), part(ToothTile(PaperParams{}), 11, -3);
+  ToothRun a, b;
+  for (int y = 3; y < 8; ++y) {
+    whole.read(13, y - 3, 10, a);
+    part.read(2, y, 10, b);
     for (int x = 0; x < 10; ++x) {
-      ASSERT_EQ(part.height(x, y), whole.height(x + 11, y - 3));
-      ASSERT_EQ(part.slope(x, y), whole.slope(x + 11, y - 3));
+      ASSERT_EQ(a.height[x], b.height[x]);
+      ASSERT_EQ(a.slope[x], b.slope[x]);
+      ASSERT_EQ(a.height[x], tile.at(13 + x, y - 3).height);
     }
+  }
+}
+
+TEST(PaperTooth, ASurfaceOfPlanesGivesTheirRuns) {
+  EXPECT_TRUE(PaperSurface().empty());
+  const ToothTile tile{PaperParams{}};
+  const PaperTooth tooth = Wall(0).tooth(tile);
+  const PaperSurface surface(Wall(0).tooth(tile));
+  ASSERT_FALSE(surface.empty());
+  ToothRun run;
+  surface.read(5, 7, 20, run);
+  for (int x = 0; x < 20; ++x) {
+    EXPECT_EQ(run.height[x], tooth.height(5 + x, 7));
+    EXPECT_EQ(run.slope[x], tooth.slope(5 + x, 7));
+  }
 }
 
 TEST(PaperTooth, OnAnObjectItStaysWhileTheCameraMoves) {

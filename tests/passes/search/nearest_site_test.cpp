@@ -50,6 +50,36 @@ void expectNaive(const SiteSearch& s, const char* what) {
   EXPECT_TRUE(equalBits<uint32_t>(fast.index, slow.index)) << what;
 }
 
+TEST(NearestSite, BoxesWithinAReachFindWhatLiesInIt) {
+  constexpr int width = 300, height = 290;
+  const Bytes kinds = randomKinds(width, height, 3, 0, 11);
+  Bytes sites(width, height, uint8_t{0}), wanted(width, height, uint8_t{0});
+  // Sites thinly spread and round two wanted places, one at a corner, one over a box's border.
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      sites(x, y) = kinds(x, y) == 1 && (x * 7 + y * 3) % 29 == 0 ? 1 : 0;
+      const bool corner = x < 9 && y<14, middle = x> 120 && x < 150 && y > 120 && y < 135;
+      wanted(x, y) = corner || middle ? 1 : 0;
+    }
+  const SiteSearch s{sites, 1, wanted, 1, {}};
+  const std::vector<LabelBox> boxes = boxesWithin(wanted, 1, 6.0f);
+  ASSERT_EQ(boxes.size(), 2u);
+  Found near{{width, height, 77u}, {width, height, 77u}};
+  findNearestSites(s, boxes, near.squared, near.index);
+  const Found whole = search(s);
+  int within = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (!wanted(x, y) || whole.squared(x, y) > 36) continue;
+      ++within;
+      ASSERT_EQ(near.squared(x, y), whole.squared(x, y)) << x << " " << y;
+      ASSERT_EQ(near.index(x, y), whole.index(x, y)) << x << " " << y;
+    }
+  EXPECT_GT(within, 300);
+  EXPECT_EQ(near.squared(250, 60), 77u) << "what is far from all wanted pixels is not looked at";
+  EXPECT_TRUE(boxesWithin(Bytes(50, 40, uint8_t{0}), 1, 6.0f).empty());
+}
+
 TEST(NearestSite, EqualsTheNaiveSearchWithoutBounds) {
   for (const int rare : {0, 30, 2}) {
     const Bytes kinds = randomKinds(133, 71, 3, rare, 7);
