@@ -47,7 +47,8 @@ class ExportJob:
         glow = any(material.use_nodes and light_emission.emits(material.node_tree)
                    for material in self.materials)
         self.data = export_scenes.DataScene(scene, subjects, glow)
-        backends = MaskBackends(options.masks_by, self.data, shot.all_geometry())
+        backends = MaskBackends(options.masks_by, self.data, shot.all_geometry(),
+                                self.shot.subject.radius)
         self.rigs = self._rigs(lights, backends)
         self.data.add_rest(shot.all_geometry())
         self.data.finish()

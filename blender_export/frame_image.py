@@ -13,6 +13,10 @@ from .layer_writer import Writer
 from .output_names import LONGEST_LAYER
 from .seen_points import SeenPoints
 
+# The beauty's normals are the mean of all its samples: with the Cryptomatte they tell which sides of
+# a thing share a pixel, where the data's one sample knows one of them.
+MEAN_NORMAL = "MeanNormal"
+
 # Not the beginning of the other part's name, and cleaned up by the same pattern.
 SEEN = ".seen.part"
 
@@ -53,6 +57,8 @@ def _add_beauty(writer, node):
     notes = []
     for socket in node.outputs:
         name = compat.pass_name(socket.name)
+        if socket.enabled and name == "Normal":
+            writer.add(socket, f"data.{MEAN_NORMAL}")
         if not socket.enabled or name in NOT_BEAUTY or name.startswith(("Denoising", "Noisy", "Debug")):
             continue
         layer = f"data.{name}" if name.startswith(("CryptoObject", "CryptoMaterial")) \

@@ -7,9 +7,11 @@
 - `occlusion`: rays of the Ambient Occlusion node, all masks in one sample (before 5.1).
 - `raycast`: rays of the Raycast node, the same (from 5.1).
 
-Rays miss a few pixels of coarse faces that are shaded smooth (sight_nodes.py): poles of sixteen
-sides in one another's penumbra had three times the error.
+On coarse faces that are shaded smooth rays and lamps differ (smooth_faces.py, sight_nodes.py); `auto`
+takes no rays where there are such.
 """
+
+from functools import cached_property
 
 from . import compat, mask_obstacles, sampler_probe, sight_nodes
 from .light_state import new_mask_lamp, place_mask_lamp, TYPES
@@ -19,10 +21,14 @@ RAYS = ("occlusion", "raycast")
 
 
 class MaskBackends:
-    """Chooses a way for each light; `notes` says which were refused, one line a reason."""
+    """Chooses a way for each light; `notes` says which were refused, one line a reason.
 
-    def __init__(self, wanted, data, objects):
+    `radius` is that of the shot's subject.
+    """
+
+    def __init__(self, wanted, data, objects, radius):
         self.wanted, self.data, self.objects, self.notes = wanted, data, objects, []
+        self.radius = radius
         self._ask, self._sight, self._turn = None, None, None
 
     def masks_of(self, light, key, count):
@@ -51,9 +57,14 @@ class MaskBackends:
         return "layers"
 
     def _problem(self, by, light):
-        if by in RAYS:
-            return self._missing(by) or mask_obstacles.of_rays(by, light, self.objects, self._turn)
-        return None
+        if by not in RAYS:
+            return None
+        problem = self._missing(by) or mask_obstacles.of_rays(by, light, self.objects, self._turn)
+        return problem or (self._coarse_faces if self.wanted == "auto" else None)
+
+    @cached_property
+    def _coarse_faces(self):
+        return mask_obstacles.of_coarse_faces(self.objects, self.radius)
 
     def _missing(self, by):
         if self._ask:

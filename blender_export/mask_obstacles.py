@@ -4,9 +4,10 @@ plain opaque surfaces and know nothing of light linking."""
 
 from dataclasses import dataclass
 
+import bpy
 from mathutils import Vector
 
-from . import compat, mask_materials, sight_nodes
+from . import compat, mask_materials, sight_nodes, smooth_faces
 
 ROUND_SUN = 0.02   # radians to spare round the masks of a sun
 
@@ -30,6 +31,13 @@ def of_rays(by, light, objects, turn=None):
         if words:
             return Obstacle(f"object '{item.name}' {words}")
     return None
+
+
+def of_coarse_faces(objects, radius):
+    """Why rays give other masks than lamps on a subject of `radius`, or None."""
+    item = smooth_faces.coarse_object(objects, radius, bpy.context.evaluated_depsgraph_get())
+    return item and Obstacle(f"object '{item.name}' has coarse faces that are shaded smooth, where "
+                             f"rays and lamps see different things")
 
 
 def _of_object(by, item):

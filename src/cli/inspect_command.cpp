@@ -9,6 +9,7 @@
 #include "base/nearest_name.h"
 #include "base/printed_json.h"
 #include "cli/commands.h"
+#include "compositor/inspect_depth_maps.h"
 #include "frame/inspect_frame.h"
 #include "look/look.h"
 
@@ -93,9 +94,21 @@ void printInspection(Console& out, const Inspection& found) {
   printFindings(out, found);
 }
 
+/// A frame that is wrong is no success; what is missing or doubted may be meant.
+int exitCodeFor(const Inspection& found, Console& console) {
+  std::vector<std::string> errors;
+  for (const Finding& finding : found.findings)
+    if (finding.kind == FindingKind::error) errors.push_back(finding.what);
+  if (errors.empty()) return allGood;
+  console.message(
+      fmt::format("ERROR: {} cannot be used as it is: {}{}", found.path.string(), errors.front(),
+                  errors.size() > 1 ? fmt::format("; and {} more", errors.size() - 1) : ""));
+  return someFailed;
+}
+
 }  // namespace
 
-void addInspectCommand(CLI::App& app, Console& console, int&) {
+void addInspectCommand(CLI::App& app, Console& console, int& exit) {
   struct Options {
     std::string input, look;
     bool json = false;
@@ -106,13 +119,15 @@ void addInspectCommand(CLI::App& app, Console& console, int&) {
   command->add_option("input", options->input, "frame (EXR)")->required();
   command->add_option("--look", options->look, "look file whose [frame] names the passes");
   command->add_flag("--json", options->json, "as JSON");
-  command->callback([options, &console] {
+  command->callback([options, &console, &exit] {
     const Look look = readLook(options->look, {});
-    const Inspection found = inspectFrame(options->input, look.frame);
+    Inspection found = inspectFrame(options->input, look.frame);
+    inspectDepthMaps(look.frame, found);
     if (options->json)
       console.results(printedJson(toJson(found)));
     else
       printInspection(console, found);
+    exit = exitCodeFor(found, console);
   });
 }
 

@@ -16,6 +16,8 @@
 #include "cli/commands.h"
 #include "compositor/check_look.h"
 #include "compositor/compose_frame.h"
+#include "compositor/light_visibility.h"
+#include "compositor/look_colour.h"
 #include "compositor/read_frame.h"
 #include "compositor/seen_things.h"
 #include "compositor/write_frame_picture.h"
@@ -125,6 +127,12 @@ int scaleOf(const Look& look, const FramePlan& plan) {
   return scale >= 1 && window.width % scale == 0 && window.height % scale == 0 ? scale : 1;
 }
 
+bool smooths(const FramePlan& plan, const FramePlanes& planes) {
+  for (size_t i = 0; i < plan.lights.size(); ++i)
+    if (isSmoothed(plan.lights[i], planes.lights[i])) return true;
+  return false;
+}
+
 DraftFrame draftFrame(const NewOptions& options, const Look& look, const Colour& colour,
                       Console& console) {
   const FramePlan plan =
@@ -136,6 +144,7 @@ DraftFrame draftFrame(const NewOptions& options, const Look& look, const Colour&
                    planes.height,
                    scaleOf(look, plan),
                    brightTone(tone, planes.objectId),
+                   smooths(plan, planes),
                    seenThings(plan, planes, tone)};
   std::vector<std::string> fromBeauty;
   for (DraftThing& thing : frame.things) {
@@ -170,7 +179,7 @@ void makeLook(const NewOptions& options, Console& console) {
   const LookPreset& preset = lookPreset(options.preset);
   refuseOverwriting(options);
   const Look given = readLookText("", options.output, options.overrides);
-  const Colour colour(given.colourConfig());
+  const Colour colour = colourOf(given);
   const DraftFrame frame = draftFrame(options, given, colour, console);
   const fs::path folder = stripFolderOf(options.output);
   const DraftLook draft = draftLook(preset, frame, folder.filename().string());
@@ -223,12 +232,16 @@ int runCheck(const CheckOptions& options, Console& console) {
   };
   const LookCheck check = checkLook(readLookFile(options.look), options.look, frames, progress);
   if (options.json) {
-    console.results(printedJson({{"problems", check.problems}, {"defaults", check.defaults}}));
+    console.results(printedJson(
+        {{"problems", check.problems}, {"defaults", check.defaults}, {"waiting", check.waiting}}));
   } else {
     for (const std::string& problem : check.problems) console.result("problem: " + problem);
     if (!check.defaults.empty())
       console.result(fmt::format("set to what they are anyway: {}", listNames(check.defaults)));
-    if (check.problems.empty()) console.result("everything in it has an effect");
+    for (const std::string& style : check.waiting) console.result("waiting: " + style);
+    if (check.problems.empty())
+      console.result(check.waiting.empty() ? "everything in it has an effect"
+                                           : "everything else in it has an effect");
   }
   if (check.problems.empty()) return allGood;
   console.message(fmt::format("ERROR: {}: {} of its entries and keys {} nothing there",

@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "compositor/compose_frame.h"
 #include "compositor/contact_sheet.h"
+#include "compositor/look_colour.h"
 #include "compositor/read_frame.h"
 
 namespace kagefude {
@@ -32,7 +33,7 @@ FrameResult compFrame(const Look& look, const Colour& colour, const std::string&
 
 void drawStages(const SheetOptions& options, Console& console) {
   const Look look = readLook(options.look, options.overrides);
-  const Colour colour(look.colourConfig());
+  const Colour colour = colourOf(look);
   ContactSheet sheet(options.tile);
   sheet.showThrough(colour, look.colour);
   const FrameResult result = compFrame(look, colour, options.input, &sheet);
@@ -61,7 +62,7 @@ void compareLooks(const SheetOptions& options, Console& console) {
   std::set<std::string> said;
   for (const std::filesystem::path& path : looksIn(options.looks)) {
     const Look look = readLook(path, options.overrides);
-    const Colour colour(look.colourConfig());
+    const Colour colour = colourOf(look);
     const FrameResult result = compFrame(look, colour, options.input, nullptr);
     sheet.showThrough(colour, look.colour);
     sheet.picture(path.stem().string(), result.colour);

@@ -10,8 +10,9 @@ namespace kagefude {
 
 /// Holds each light's depth map against its masks, where both are read: a map of another light or
 /// another frame, or one whose matrices are wrong, hides little of what the masks hide, or much of
-/// what they show. A sentence for each light of which that is so; the map is used all the same, as
-/// far as masks bear it out pixel by pixel. Cost: about a millisecond a light.
-std::vector<std::string> doubtDepthMaps(const FramePlan& plan, const FramePlanes& planes);
+/// what they show. Such a map is taken out of the planes, so that masks alone make the shadow (a
+/// pair is searched by itself), unless the look asks by name for a method that is made of it. A
+/// sentence for each. Cost: about a millisecond a light.
+std::vector<std::string> setDoubtedMapsAside(const FramePlan& plan, FramePlanes& planes);
 
 }  // namespace kagefude

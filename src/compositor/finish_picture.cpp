@@ -40,6 +40,20 @@ void putLinesOver(const FramePlanes& planes, BrushResult& brush) {
   });
 }
 
+/// Painted edges want each thing's paint by itself, so things meet in two steps there.
+bool meetByNormals(const FinishInput& in) {
+  return in.look.output.edges == Edges::coverage && knowsMeanNormals(in.planes) &&
+         !paintsEdges(in.styled);
+}
+
+/// Where edges run inside a thing they may be clean already.
+void letThingsMeet(const FinishInput& in, BrushResult& brush) {
+  if (meetByNormals(in))
+    blendByNormals(in.plan, in.planes, in.styled, in.joins, brush);
+  else
+    blendEdges(in.plan, in.planes, brush);
+}
+
 PaintViews viewsOf(BrushResult& brush) { return {brush.r, brush.g, brush.b, brush.a}; }
 
 /// Paint takes to the paper before things meet, so that each knows its own tone; what it leaves
@@ -53,7 +67,7 @@ void layOnGround(const FinishInput& in, BrushResult& brush) {
   if (edges)
     own = keepBeforeEdges(in.plan, in.planes, brush);
   else
-    blendEdges(in.plan, in.planes, brush);
+    letThingsMeet(in, brush);
   const FrameGround ground(in, brush.a, surface);
   if (edges) paintStyleEdges(in.plan, in.planes, in.styled, own, ground.get(), brush);
   if (ground.get()) layOver(viewsOf(brush), *ground.get());
@@ -78,11 +92,12 @@ Floats finishPicture(const FinishInput& in, BrushResult& brush) {
   multiplyAlbedo(planes, in.styled, brush);
   tintPaint(in.styled, in.tone, in.lightColour, brush);
   if (in.ownLights) addOwnLights(*in.ownLights, brush);
-  if (in.look.output.edges == Edges::coverage) blendInside(planes, in.styled, in.joins, brush);
+  if (in.look.output.edges == Edges::coverage && !meetByNormals(in))
+    blendInside(planes, in.styled, in.joins, brush);
   if (usesGround(in.look, in.styled)) {
     layOnGround(in, brush);
   } else {
-    blendEdges(in.plan, planes, brush);
+    letThingsMeet(in, brush);
     if (in.look.output.background == Background::beauty && !planes.beauty.empty())
       putBeautyBehind(planes, brush);
   }

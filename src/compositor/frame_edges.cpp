@@ -10,6 +10,7 @@
 #include "image/parallel.h"
 #include "passes/edges/behind_paint.h"
 #include "passes/edges/inner_edges.h"
+#include "passes/edges/mean_normals.h"
 #include "passes/edges/outline.h"
 #include "passes/edges/painted_edges.h"
 
@@ -52,6 +53,14 @@ std::vector<CoverageRank> coverageRanks(const FramePlanes& planes) {
   for (size_t i = 0; i < planes.coverageIds.size(); ++i)
     ranks.push_back({planes.coverageIds[i], planes.coverageShares[i]});
   return ranks;
+}
+
+EdgeSurfaces edgeSurfaces(const FramePlanes& planes, const StyledSurfaces& styled,
+                          View<const uint8_t> joins) {
+  EdgeSurfaces surfaces{planes.objectId, styled.anchorIndex, joins, planes.normal, planes.position};
+  surfaces.rays = planes.rays ? &*planes.rays : nullptr;
+  surfaces.betweenObjects = planes.coverageIds.empty();
+  return surfaces;
 }
 
 /// Distances from the camera; only compared, so any depth along the view serves.
@@ -108,12 +117,27 @@ BrushResult keepBeforeEdges(const FramePlan& plan, const FramePlanes& planes, Br
   return before;
 }
 
+bool knowsMeanNormals(const FramePlanes& planes) {
+  return !planes.meanNormal.x.empty() && !planes.coverageIds.empty();
+}
+
+void blendByNormals(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
+                    View<const uint8_t> joins, BrushResult& brush) {
+  const Labels own = ownCryptomatteIds(plan, planes.objectId);
+  const std::vector<CoverageRank> ranks = coverageRanks(planes);
+  ColourPlanes blended =
+      blendByMeanNormals({brush.r, brush.g, brush.b, brush.a},
+                         {edgeSurfaces(planes, styled, joins), own, ranks, planes.meanNormal});
+  brush.r = std::move(blended.r);
+  brush.g = std::move(blended.g);
+  brush.b = std::move(blended.b);
+  brush.a = std::move(blended.a);
+}
+
 void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<const uint8_t> joins,
                  BrushResult& brush) {
-  EdgeSurfaces surfaces{planes.objectId, styled.anchorIndex, joins, planes.normal, planes.position};
-  surfaces.rays = planes.rays ? &*planes.rays : nullptr;
-  surfaces.betweenObjects = planes.coverageIds.empty();
-  blendInnerEdges(surfaces, {brush.r.view(), brush.g.view(), brush.b.view(), brush.a.view()});
+  blendInnerEdges(edgeSurfaces(planes, styled, joins),
+                  {brush.r.view(), brush.g.view(), brush.b.view(), brush.a.view()});
 }
 
 void putBeautyBehind(const FramePlanes& planes, BrushResult& brush) {

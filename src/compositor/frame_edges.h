@@ -14,6 +14,14 @@ void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& b
 /// The same; gives the colours as they were before.
 BrushResult keepBeforeEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
 
+/// Whether the frame has what blendByNormals needs.
+bool knowsMeanNormals(const FramePlanes& planes);
+
+/// Blends the strokes at all edges at once, inside objects and between them, by the render's mean
+/// normals: in place of blendInside and blendEdges.
+void blendByNormals(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
+                    View<const uint8_t> joins, BrushResult& brush);
+
 /// Blends the strokes where edges run inside an object, and between objects where the frame has no
 /// coverage. `joins` are those of its surfaces.
 void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<const uint8_t> joins,

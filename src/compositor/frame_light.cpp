@@ -29,12 +29,33 @@ const LightLook* settingsOf(const Look& look, const std::string& name) {
   return found;
 }
 
+/// A key of a [[light]], as --set names it.
+std::string lightKey(const Look& look, const LightLook& settings, std::string_view key) {
+  return fmt::format("light[{}].{}", &settings - look.lights.data(), key);
+}
+
+/// Where a key of a [[light]] stands, as messages begin: "look.toml:12: ".
+std::string leadOf(const Look& look, const LightLook& settings, std::string_view key) {
+  const std::string place = look.placeOf(lightKey(look, settings, key));
+  return place.empty() ? "" : place + ": ";
+}
+
+/// A light's own key of [shadow], else the look's.
+std::string shadowKey(const Look& look, const LightLook* settings, const std::string& key) {
+  const std::string own = settings ? lightKey(look, *settings, "shadow." + key) : "";
+  return look.keyWithPlace(look.placeOf(own).empty() ? "shadow." + key : own);
+}
+
 void applySettings(const Look& look, const LightLook* settings, FrameLight& light) {
   const ShadowParams& shadow = settings ? settings->shadow : look.shadow;
   light.castPlaces = shadow.places;
   light.receiver = shadow.receiver;
-  if (!shadow.blob.empty()) light.blob = look.resolve(shadow.blob);
+  if (!shadow.blob.empty()) {
+    light.blob = look.resolve(shadow.blob);
+    light.blobNamed = shadowKey(look, settings, "blob");
+  }
   light.method = shadow.method;
+  light.automatic = shadow.method == ShadowMethod::automatic;
   light.strength = shadow.strength;
   light.passes = settings ? settings->passes : look.passes;
 }
@@ -63,15 +84,15 @@ V3f towardsFarMask(const SidecarLight& source) {
 }
 
 /// What only describes a light of the look's own would do nothing on one that the JSON describes.
-void refuseOwnDescription(const LightLook* settings, const SidecarLight& source) {
+void refuseOwnDescription(const Look& look, const LightLook* settings, const SidecarLight& source) {
   if (!settings) return;
   const LightParams& params = settings->light;
   const auto refuse = [&](bool given, const char* key) {
     if (given)
       throw LookError(fmt::format(
-          "light.{} does nothing on light {}, which the JSON describes; leave it out, or give the "
-          "light another name",
-          key, source.name));
+          "{}light.{} does nothing on light {}, which the JSON describes; leave it out, or give "
+          "the light another name",
+          leadOf(look, *settings, key), key, source.name));
   };
   refuse(!params.masks.empty(), "masks");
   refuse(!params.places.empty(), "places");
@@ -120,7 +141,7 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, const Whole
   light.subjectCentre = toFloat(source.subjectCenter);
   light.subjectRadius = static_cast<float>(source.subjectRadius);
   const LightLook* const settings = settingsOf(look, source.name);
-  refuseOwnDescription(settings, source);
+  refuseOwnDescription(look, settings, source);
   applySettings(look, settings, light);
   const bool moved = moveLight(settings, light);
   weigh(source, shot, settings, light);
@@ -136,7 +157,7 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, const Whole
   if (entryOf(light.method).needs.traced) light.tracedChannel = source.tracedLayer;
   if (source.depthMap)
     light.depthMap = {source.depthMap->file, source.depthMap->channel,
-                      source.depthMap->lightFromWorld, source.depthMap->clipFromLight};
+                      source.depthMap->lightFromWorld, source.depthMap->clipFromLight, ""};
   light.geometry = geometryOf(source);
   light.towardsFar = towardsFarMask(source);
   if (needsMasks(light.method) && source.masks)
@@ -159,12 +180,13 @@ std::vector<V2f> defaultPlaces(size_t count) {
   return places;
 }
 
-std::vector<V2f> placesFrom(const LightParams& params) {
+std::vector<V2f> placesFrom(const Look& look, const LightLook& settings) {
+  const LightParams& params = settings.light;
   if (params.places.empty()) return defaultPlaces(params.masks.size());
   if (params.places.size() != 2 * params.masks.size())
-    throw LookError(fmt::format("light {} has {} masks, so light.places wants {} numbers, not {}",
-                                params.name, params.masks.size(), 2 * params.masks.size(),
-                                params.places.size()));
+    throw LookError(fmt::format("{}light {} has {} masks, so light.places wants {} numbers, not {}",
+                                leadOf(look, settings, "places"), params.name, params.masks.size(),
+                                2 * params.masks.size(), params.places.size()));
   std::vector<V2f> places;
   for (size_t i = 0; i < params.masks.size(); ++i)
     places.emplace_back(params.places[2 * i], params.places[2 * i + 1]);
@@ -185,15 +207,16 @@ FrameLight fromLook(const Look& look, const LightLook& settings, int frame, bool
     light.method = automaticMethod(params, light.passes.lightShape.depthMap, hasCasters);
   if (needsMasks(light.method)) {
     light.maskChannels = params.masks;
-    light.places = placesFrom(params);
+    light.places = placesFrom(look, settings);
   }
   if (!params.depthMap.empty()) {
     if (params.lightFromWorld.empty() || params.clipFromLight.empty())
       throw LookError(fmt::format(
-          "light {} has a depth_map, so it wants light_from_world and clip_from_light too",
-          params.name));
+          "{}light {} has a depth_map, so it wants light_from_world and clip_from_light too",
+          leadOf(look, settings, "depth_map"), params.name));
     light.depthMap = {look.resolve(FramePattern(params.depthMap).path(frame).string()), "",
-                      matrixFrom(params.lightFromWorld), matrixFrom(params.clipFromLight)};
+                      matrixFrom(params.lightFromWorld), matrixFrom(params.clipFromLight),
+                      look.keyWithPlace(lightKey(look, settings, "depth_map"))};
   }
   return light;
 }
@@ -241,7 +264,7 @@ void checkMasks(const FrameLight& light, const ShadowMethodEntry& method) {
                     light.name, count, method.name, need.most, need.exportAs));
 }
 
-void checkMethod(const FrameLight& light, bool hasCasters) {
+void checkMethod(const Look& look, const FrameLight& light, bool hasCasters) {
   const ShadowMethodEntry& method = entryOf(light.method);
   if (method.needs.casters && !hasCasters)
     throw InputError(fmt::format(
@@ -250,9 +273,9 @@ void checkMethod(const FrameLight& light, bool hasCasters) {
         light.name, method.name));
   if (method.needs.receiver && light.receiver.empty())
     throw LookError(
-        fmt::format("shadow.method = \"{}\" wants shadow.receiver, the name of the flat "
-                    "object that the shadow falls on",
-                    method.name));
+        fmt::format("{} = \"{}\" wants shadow.receiver, the name of the flat object that the "
+                    "shadow falls on",
+                    shadowKey(look, settingsOf(look, light.name), "method"), method.name));
   if (method.needs.depthMap && !light.depthMap)
     throw InputError(fmt::format(
         "light {} has no depth map, which shadow.method = \"{}\" needs; export it again with the "
@@ -296,7 +319,7 @@ std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
     names.push_back(light.name);
     const LightLook* const settings = settingsOf(look, light.name);
     if (!matchesAny(light.name, look.shadow.lights) || (settings && !settings->light.on)) continue;
-    checkMethod(light, hasCasters);
+    checkMethod(look, light, hasCasters);
     sizeByScene(look.scene, light);
     light.readsDepthMap = readsDepthMap(light);
     for (std::string& mask : light.maskChannels) mask = requireMaskChannel(image, mask);

@@ -20,6 +20,7 @@ struct DepthMapSource {
   std::string channel;  ///< empty: the depth pass found by name
   Transform lightFromWorld;
   Transform clipFromLight;
+  std::string named;  ///< the look's key that names it, with its place; "" where the JSON does
 };
 
 /// One light of one frame: what the sidecar and the look together say of it.
@@ -30,6 +31,7 @@ struct FrameLight {
   float subjectRadius = 0;                   ///< 0: unknown
   LightWeight weight;                        ///< how much of the tone is its
   ShadowMethod method = ShadowMethod::none;  ///< never `automatic`
+  bool automatic = false;                    ///< whether `auto` chose the method
   float strength = 1;
   PassParams passes;
   std::vector<std::string> maskChannels;  ///< of the masks that the method needs
@@ -42,6 +44,7 @@ struct FrameLight {
   int castPlaces = 0;          ///< method places: masks that are cut from the casters
   std::string receiver;        ///< methods planar and blob
   std::filesystem::path blob;  ///< picture of the blob; empty: a soft round one
+  std::string blobNamed;       ///< the key that names it, with its place
 };
 
 /// The lights that take part in a frame, in the sidecar's order, then those that only the look

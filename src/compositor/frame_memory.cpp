@@ -134,6 +134,7 @@ size_t frameMemory(const Look& look, const FramePlan& plan,
   if (plan.emission) floats += 4 * 3;
   if (plan.beauty) floats += 4 * 4;
   if (!plan.lines.empty()) floats += 4 * 4;
+  if (!plan.meanNormal.empty()) floats += 4 * 3;
   const size_t ids = plan.materialId ? 2 * ofIds : ofIds;
   const size_t layers = layerBytes(look, plan.lights);
   const size_t edges = plan.coverage ? ofEdgeRanks : 0;

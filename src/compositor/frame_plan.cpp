@@ -75,6 +75,19 @@ void planCoverage(const Look& look, const AovNames& names, FramePlan& plan) {
   plan.coverage = findAov(plan.image, names, AovKind::cryptoObject);
 }
 
+/// The exporter's own pass beside its normals, in world space as they are.
+void planMeanNormal(FramePlan& plan) {
+  if (!plan.coverage || !plan.sidecar) return;
+  const std::string& normal = plan.normal.channels.at(0);  // "layer.Normal.X"
+  const std::string pass = normal.substr(0, normal.rfind('.'));
+  const std::string layer = pass.substr(0, pass.rfind('.') + 1);
+  for (const char* axis : {"X", "Y", "Z"}) {
+    std::string name = fmt::format("{}MeanNormal.{}", layer, axis);
+    if (plan.image.findChannel(name)) plan.meanNormal.push_back(std::move(name));
+  }
+  if (plan.meanNormal.size() != 3) plan.meanNormal.clear();
+}
+
 bool wantsOutlines(const Look& look) {
   return asksFor(look, "outline") || anyStyleHas(look, &StyleParams::outlineColour);
 }
@@ -187,10 +200,16 @@ bool endsPaint(const Look& look) {
   return anyPasses(look, [](const PassParams& passes) { return passes.edges.acts(); });
 }
 
-/// What shines without the lights, where a tone asks for it.
+/// What shines without the lights, where a tone asks for it. A frame that lacks it is painted
+/// without: the exporter writes the pass only for shots where something gives off light.
 void planFloor(const Look& look, const AovNames& names, FramePlan& plan) {
-  if (anyPasses(look, [](const PassParams& passes) { return passes.tone.emission > 0.0f; }))
-    plan.emission = requireAov(plan.image, names, AovKind::emission);
+  if (anyPasses(look, [](const PassParams& passes) { return passes.tone.emission > 0.0f; })) {
+    plan.emission = findAov(plan.image, names, AovKind::emission);
+    if (!plan.emission)
+      plan.warnings.push_back(
+          "tone.emission is set, but the frame has no Emission pass, so it lifts nothing; where "
+          "something gives off light, export the shot again, or name the pass with frame.emission");
+  }
   if (!anyPasses(look, [](const PassParams& passes) { return passes.tone.world > 0.0f; })) return;
   const std::vector<float>& own = look.scene.world;
   if (!own.empty())
@@ -240,7 +259,8 @@ const SidecarObject* FramePlan::findObject(uint32_t id) const {
 FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame,
                     const std::string& view) {
   const std::string& taken = view.empty() ? look.frame.view : view;
-  ImageFile image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken));
+  ImageFile image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken),
+                              look.keyWithPlace("frame.files"));
   const bool viewless = view.empty() && !look.frame.view.empty() && image.views.empty();
   FramePlan plan = planOpenFrame(look, std::move(image), findSidecar(path), frame);
   if (viewless)
@@ -282,6 +302,7 @@ FramePlan planOpenFrame(const Look& asked, ImageFile image, std::optional<Sideca
   nameObjectsFromSidecar(plan);
   nameObjectsFromLook(look, plan);
   planCoverage(look, names, plan);
+  planMeanNormal(plan);
   if ((wantsOutlines(look) || endsPaint(look)) && !plan.sidecar)
     plan.depth = findAov(plan.image, names, AovKind::depth);
   plan.hasCasters = plan.sidecar && !plan.sidecar->casters.empty();

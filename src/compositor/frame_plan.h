@@ -27,9 +27,10 @@ struct FramePlan {
   bool restInWorld = false;                     ///< else in each object's own space
   std::optional<Aov> emission;                  ///< only where tone.emission asks for it
   V3f worldRadiance{0, 0, 0};                   ///< only where tone.world asks for it
-  std::vector<std::string> lines;  ///< channels R, G, B, A of drawn lines; empty for none
-  std::optional<Aov> depth;        ///< only for outlines where no camera is known
-  std::optional<Aov> coverage;     ///< Cryptomatte of objects whose coverage draws the edges
+  std::vector<std::string> lines;       ///< channels R, G, B, A of drawn lines; empty for none
+  std::optional<Aov> depth;             ///< only for outlines where no camera is known
+  std::optional<Aov> coverage;          ///< Cryptomatte of objects whose coverage draws the edges
+  std::vector<std::string> meanNormal;  ///< channels X, Y, Z, only beside `coverage`; or empty
   IdSource idSource = IdSource::cryptomatte;
   Aov objectId;
   IdSource materialSource = IdSource::cryptomatte;

@@ -19,8 +19,13 @@ void showMasks(const ShadowWork& work, StageSink& sink) {
 
 }  // namespace
 
-bool isSmoothed(const FrameLight& light) {
-  switch (entryOf(light.method).smoothing) {
+const ShadowMethodEntry& actingMethod(const FrameLight& light, const LightPlanes& planes) {
+  const bool alone = light.method == ShadowMethod::pairDepth && planes.depthMap.empty();
+  return entryOf(alone ? ShadowMethod::pair : light.method);
+}
+
+bool isSmoothed(const FrameLight& light, const LightPlanes& planes) {
+  switch (actingMethod(light, planes).smoothing) {
     case Smoothing::never:
       return false;
     case Smoothing::whereAsked:
@@ -44,8 +49,8 @@ LightVisibility lightVisibility(const FrameLight& light, const FramePlan& plan,
                                 View<const uint32_t> surfaces, StageSink* sink) {
   const ShadowWork work{light, plan, planes, frame, surfaces};
   if (sink) showMasks(work, *sink);
-  LightVisibility result = entryOf(light.method).function(work);
-  if (isSmoothed(light))
+  LightVisibility result = actingMethod(light, planes).function(work);
+  if (isSmoothed(light, planes))
     result.visibility = smoothWithinSurfaces(result.visibility, surfaces, light.passes.smooth);
   if (sink) sink->number(fmt::format("visibility.{}", light.name), result.visibility);
   return result;

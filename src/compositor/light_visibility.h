@@ -26,8 +26,12 @@ LightVisibility lightVisibility(const FrameLight& light, const FramePlan& plan,
                                 const LightPlanes& planes, const FramePlanes& frame,
                                 View<const uint32_t> surfaces, StageSink* sink);
 
+/// The method that makes a light's shadow: the light's own, but `pair` where a pair's depth map was
+/// set aside (setDoubtedMapsAside).
+const ShadowMethodEntry& actingMethod(const FrameLight& light, const LightPlanes& planes);
+
 /// Whether lightVisibility smooths what the light's method finds.
-bool isSmoothed(const FrameLight& light);
+bool isSmoothed(const FrameLight& light, const LightPlanes& planes);
 
 /// The labels that a search must not leave, as the look asks.
 View<const uint32_t> labelsFor(SearchBound bound, const ShadowWork& work);

@@ -61,9 +61,10 @@ void checkLayers(const Look& look, const std::vector<FrameLight>& lights) {
   for (const std::string& wanted : look.output.layers) {
     const auto matches = [&](const std::string& name) { return matchesGlob(name, wanted); };
     if (std::any_of(names.begin(), names.end(), matches)) continue;
-    throw LookError(
-        fmt::format("output.layers: no layer of the frame is called {}{}{}; there are {}", wanted,
-                    didYouMean(wanted, names), methodHint(wanted, lights), listNames(names)));
+    throw LookError(fmt::format("{}: no layer of the frame is called {}{}{}; there are {}",
+                                look.keyWithPlace("output.layers"), wanted,
+                                didYouMean(wanted, names), methodHint(wanted, lights),
+                                listNames(names)));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/glob.h"
 #include "base/nearest_name.h"
+#include "base/place_error.h"
 #include "compositor/paint_styles.h"
 #include "image/parallel.h"
 #include "look/light_strip.h"
@@ -23,6 +24,16 @@ std::vector<std::string> lightNames(const Look& look, const FramePlan& plan) {
     for (const SidecarLight& light : plan.sidecar->lights) names.push_back(light.name);
   for (const LightLook& light : look.lights) names.push_back(light.light.name);
   return names;
+}
+
+void refuseStrangeLights(const StyleParams& style, const std::vector<std::string>& names) {
+  checkLightStrips(style);
+  for (const LightStrip& own : lightStripsOf(style))
+    if (std::none_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return matchesGlob(name, own.light); }))
+      throw LookError(fmt::format(
+          "style.light_strips gives {} a strip, which is no light of the frame{}; there are {}",
+          own.light, didYouMean(own.light, names), listNames(names)));
 }
 
 /// Per anchor, which lights do not count in its own strip.
@@ -86,15 +97,9 @@ bool paintsOwnLights(const Look& look, const FramePlan& plan) {
 
 void checkLightStrips(const Look& look, const FramePlan& plan) {
   const std::vector<std::string> names = lightNames(look, plan);
-  for (const StyleLook& style : look.styles) {
-    checkLightStrips(style.style);
-    for (const LightStrip& own : lightStripsOf(style.style))
-      if (std::none_of(names.begin(), names.end(),
-                       [&](const std::string& name) { return matchesGlob(name, own.light); }))
-        throw LookError(fmt::format(
-            "style.light_strips gives {} a strip, which is no light of the frame{}; there are {}",
-            own.light, didYouMean(own.light, names), listNames(names)));
-  }
+  for (size_t i = 0; i < look.styles.size(); ++i)
+    withPlace(look.placeOf(fmt::format("style[{}].light_strips", i)),
+              [&] { refuseStrangeLights(look.styles[i].style, names); });
 }
 
 OwnLights::OwnLights(const Look& look, const StripSet& strips, const FramePlan& plan)

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/place_error.h"
 #include "compositor/casting_scene.h"
 #include "compositor/doubt_bounds.h"
 #include "compositor/doubt_depth_map.h"
@@ -97,7 +98,7 @@ Floats depthMapOf(const FrameLight& light, std::vector<std::string>& warnings) {
     return {};
   }
   if (!light.readsDepthMap) return {};
-  return readDepthMap(*light.depthMap);
+  return withPlace(light.depthMap->named, [&] { return readDepthMap(*light.depthMap); });
 }
 
 /// A pixel without a normal shows no surface, whatever its id says.
@@ -211,6 +212,11 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   CryptomattePlanes coverage;
   constexpr int edgeRanks = 4;  // a pixel where more than four things meet shows no edge to clean
   if (plan.coverage) coverage = requestCryptomatte(reader, plan.coverage->name, edgeRanks);
+  if (!plan.meanNormal.empty()) {
+    reader.floats(plan.meanNormal[0], planes.meanNormal.x);
+    reader.floats(plan.meanNormal[1], planes.meanNormal.y);
+    reader.floats(plan.meanNormal[2], planes.meanNormal.z);
+  }
   planes.lights.resize(plan.lights.size());
   for (size_t i = 0; i < plan.lights.size(); ++i)
     for (const std::string& channel : plan.lights[i].maskChannels)
@@ -252,7 +258,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
   checkSpaces(plan, planes);
-  for (std::string& doubt : doubtDepthMaps(plan, planes))
+  for (std::string& doubt : setDoubtedMapsAside(plan, planes))
     planes.warnings.push_back(std::move(doubt));
   return planes;
 }

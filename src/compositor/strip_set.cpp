@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/place_error.h"
 #include "image/parallel.h"
 #include "image/real_math.h"
 #include "look/light_strip.h"
@@ -102,12 +103,12 @@ void namedToWorking(const Colour& colour, const std::string& file, std::string_v
 }
 
 /// Transforms want the colour apart from its alpha; the painting wants it multiplied. The picture
-/// behind things is held as a strip is, but called by its key.
+/// behind things is held as a strip is.
 Strip loadStrip(const Look& look, const Colour& colour, const std::string& name) {
   if (isBuiltinStrip(name)) return loadBuiltin(colour, name.substr(builtinPrefix.size()));
   const bool behind =
       look.output.background == Background::picture && name == look.passes.ground.picture;
-  const std::string_view what = behind ? "ground.picture" : "strip";
+  const std::string_view what = behind ? "picture" : "strip";
   StripPicture picture = readStrip(look.resolve(name), what);
   const bool transformed = !picture.sceneLinear || !look.colour.strip.empty();
   if (picture.associated && transformed) associate(picture, true);
@@ -118,6 +119,28 @@ Strip loadStrip(const Look& look, const Colour& colour, const std::string& name)
   if (!picture.hasAlpha) return makeStrip(picture.red, picture.green, picture.blue);
   if (transformed || !picture.associated) associate(picture, false);
   return makeStrip(picture.red, picture.green, picture.blue, picture.alpha);
+}
+
+/// A strip or picture, and the key that names it.
+struct PaintedFile {
+  std::string name, key;
+};
+
+std::vector<PaintedFile> filesWithKeys(const Look& look) {
+  std::vector<PaintedFile> files;
+  for (size_t i = 0; i < look.styles.size(); ++i)
+    files.push_back({look.styles[i].style.strip, fmt::format("style[{}].strip", i)});
+  for (size_t i = 0; i < look.styles.size(); ++i)
+    for (const LightStrip& own : lightStripsOf(look.styles[i].style))
+      if (!own.strip.empty())
+        files.push_back({own.strip, fmt::format("style[{}].light_strips", i)});
+  for (size_t i = 0; i < look.lights.size(); ++i)
+    if (const std::string& strip = look.lights[i].light.strip; !strip.empty())
+      files.push_back({strip, fmt::format("light[{}].strip", i)});
+  const bool picture = look.output.background == Background::picture;
+  if (std::string ground = groundFile(look); !ground.empty())
+    files.push_back({std::move(ground), picture ? "ground.picture" : "ground.strip"});
+  return files;
 }
 
 }  // namespace
@@ -145,13 +168,7 @@ bool multipliesColour(const StyleParams& style, const std::string& strip) {
 
 std::vector<std::string> paintedFiles(const Look& look) {
   std::vector<std::string> names;
-  for (const StyleLook& style : look.styles) names.push_back(style.style.strip);
-  for (const StyleLook& style : look.styles)
-    for (const LightStrip& own : lightStripsOf(style.style))
-      if (!own.strip.empty()) names.push_back(own.strip);
-  for (const LightLook& light : look.lights)
-    if (!light.light.strip.empty()) names.push_back(light.light.strip);
-  if (std::string ground = groundFile(look); !ground.empty()) names.push_back(std::move(ground));
+  for (PaintedFile& file : filesWithKeys(look)) names.push_back(std::move(file.name));
   return names;
 }
 
@@ -160,9 +177,8 @@ std::string groundFile(const Look& look) {
   if (look.output.background == Background::strip) return ground.strip;
   if (look.output.background != Background::picture) return {};
   if (ground.picture.empty())
-    throw LookError(
-        "output.background = \"picture\" shows the file that ground.picture names, which is "
-        "empty");
+    throw LookError(look.keyWithPlace("output.background") +
+                    " = \"picture\" shows the file that ground.picture names, which is empty");
   return ground.picture;
 }
 
@@ -197,18 +213,22 @@ StripSet::Loaded StripSet::release() {
 }
 
 void StripSet::load(const Look& look, Loaded& loaded) {
-  std::vector<std::string> names = {StyleParams{}.strip};
-  for (std::string& name : paintedFiles(look)) names.push_back(std::move(name));
+  std::vector<PaintedFile> files = {{StyleParams{}.strip, ""}};
+  for (PaintedFile& file : filesWithKeys(look)) files.push_back(std::move(file));
   if (look.output.background == Background::picture) picture_ = look.passes.ground.picture;
-  std::vector<std::string> distinct;
-  for (const std::string& name : names)
-    if (indices_.emplace(name, static_cast<int>(distinct.size())).second) distinct.push_back(name);
+  std::vector<PaintedFile> distinct;
+  for (const PaintedFile& file : files)
+    if (indices_.emplace(file.name, static_cast<int>(distinct.size())).second)
+      distinct.push_back(file);
   strips_.resize(distinct.size());
   std::vector<std::exception_ptr> errors(distinct.size());
   parallelRows(static_cast<int>(distinct.size()) - 1, 1, [&](int first, int) {
     const auto i = static_cast<size_t>(first) + 1;
+    const auto& [name, key] = distinct[i];
     try {
-      if (!loaded.contains(distinct[i])) strips_[i] = loadStrip(look, colour_, distinct[i]);
+      if (!loaded.contains(name))
+        strips_[i] = withPlace(look.keyWithPlace(key),
+                               [&, &file = name] { return loadStrip(look, colour_, file); });
     } catch (...) {
       errors[i] = std::current_exception();
     }
@@ -216,7 +236,7 @@ void StripSet::load(const Look& look, Loaded& loaded) {
   for (const std::exception_ptr& error : errors)  // the first of the look, whoever was faster
     if (error) std::rethrow_exception(error);
   for (size_t i = 0; i < distinct.size(); ++i)
-    if (auto there = loaded.extract(distinct[i])) {
+    if (auto there = loaded.extract(distinct[i].name)) {
       strips_[i] = std::move(there.mapped());
       if (i == 0) tbb::collaborative_call_once(neutral_, [] {});
     }

@@ -91,7 +91,8 @@ const StyleLook* styleFor(const Look& look, const FramePlan& plan, const Surface
                      [&](const StyleParams& style) { return matches(style, plan, surface); });
 }
 
-const FrameLight& lightFor(const FramePlan& plan, const StyleParams& style) {
+const FrameLight& lightFor(const Look& look, const FramePlan& plan, const StyleLook& styled) {
+  const StyleParams& style = styled.style;
   if (style.light.empty())
     return *std::max_element(
         plan.lights.begin(), plan.lights.end(),
@@ -101,8 +102,10 @@ const FrameLight& lightFor(const FramePlan& plan, const StyleParams& style) {
     if (light.name == style.light) return light;
     names.push_back(light.name);
   }
-  throw LookError(fmt::format("style.light {} is no light of the frame{}; there are {}",
-                              style.light, didYouMean(style.light, names), listNames(names)));
+  throw LookError(
+      fmt::format("{} {} is no light of the frame{}; there are {}",
+                  look.keyWithPlace(fmt::format("style[{}].light", &styled - look.styles.data())),
+                  style.light, didYouMean(style.light, names), listNames(names)));
 }
 
 struct VisibleBounds {
@@ -307,7 +310,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
   for (size_t number = 1; number <= index.surfaces.size(); ++number) {
     const StyleLook* found = styleFor(look, plan, index.surfaces[number - 1]);
     const StyleLook& style = found ? *found : fallback;
-    const FrameLight& light = lightFor(plan, style.style);
+    const FrameLight& light = lightFor(look, plan, style);
     const uint32_t object = index.surfaces[number - 1].object;
     BrushParams brush = style.passes.brush;
     const bool atRest = grounds.choose(number, object, brush);

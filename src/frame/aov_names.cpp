@@ -41,6 +41,7 @@ constexpr std::string_view instanceRandoms[] = {"instancerandom", "objectrandom"
 constexpr std::string_view otherPasses[] = {"mist",
                                             "noisyimage",
                                             "denoisingnormal",
+                                            "meannormal",
                                             "denoisingalbedo",
                                             "ao",
                                             "env",

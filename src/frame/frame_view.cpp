@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "base/place_error.h"
 #include "frame/aov_names.h"
 #include "picture/frame_picture.h"
 
@@ -149,13 +150,13 @@ ImageFile takeView(ImageFile file, const std::string& view) {
 }
 
 ImageFile openFrame(const std::filesystem::path& path, const std::string& view,
-                    const std::vector<GroupFile>& others) {
+                    const std::vector<GroupFile>& others, const std::string& named) {
   std::vector<ImageFile> images;
   images.push_back(openAnyImage(path));
   if (others.empty()) return takeView(std::move(images.front()), view);
   std::vector<std::string> layers = {""};
   for (const GroupFile& other : others) {
-    images.push_back(openAnyImage(other.path));
+    images.push_back(withPlace(named, [&] { return openAnyImage(other.path); }));
     layers.push_back(other.layer);
   }
   return takeView(joinImages(std::move(images), layers), view);

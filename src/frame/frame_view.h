@@ -26,9 +26,10 @@ std::vector<std::string> listViews(const ImageFile& file);
 ImageFile takeView(ImageFile file, const std::string& view);
 
 /// A frame's file, joined with the `others` that belong to it, and of them one view: how every
-/// frame is opened. Errors as openAnyImage, joinImages and takeView.
+/// frame is opened. Errors as openAnyImage, joinImages and takeView; those of the others begin with
+/// what named them, such as a look's key.
 ImageFile openFrame(const std::filesystem::path& path, const std::string& view = "",
-                    const std::vector<GroupFile>& others = {});
+                    const std::vector<GroupFile>& others = {}, const std::string& named = "");
 
 namespace detail {
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "compositor/compose_frame.h"
+#include "compositor/look_colour.h"
 #include "compositor/read_frame.h"
 #include "frame/frame_view.h"
 #include "image/downscale.h"
@@ -53,7 +54,7 @@ OIIO::ImageSpec specOf(const OIIO::ImageSpec& frame, const FramePlan& plan,
 }  // namespace
 
 ImageComp::ImageComp(Look look)
-    : look_(std::move(look)), colour_(look_.colourConfig()), strips_(look_, colour_) {}
+    : look_(std::move(look)), colour_(colourOf(look_)), strips_(look_, colour_) {}
 
 OIIO::ImageBuf ImageComp::comp(const OIIO::ImageBuf& frame, int number,
                                const std::filesystem::path& sidecar,

@@ -68,12 +68,12 @@ LightStagesMade FrameStages::composeLight(const Look& look, const FramePlan& pla
   made.shadow = stages.shadow.at(run, "shadow of " + light.name, std::move(shadow), [&] {
     const ShadowWork work{light, plan, frame.planes->lights[index], *frame.planes,
                           frame.surfaces->labels};
-    return entryOf(light.method).function(work);
+    return actingMethod(light, work.planes).function(work);
   });
 
   // Not a copy where nothing is smoothed.
   made.visibility = {{made.shadow.value, &made.shadow->visibility}, made.shadow.version};
-  if (isSmoothed(light)) {
+  if (isSmoothed(light, frame.planes->lights[index])) {
     StageKey smooth = keyOf({made.shadow.version, frame.surfaces.version});
     smooth.add(smoothTable, &light.passes.smooth);
     made.visibility = stages.smoothed.at(run, "smoothing of " + light.name, std::move(smooth), [&] {

@@ -25,7 +25,7 @@ size_t bytesOf(const FramePlanes& planes) {
   size_t bytes = (ofStages + ofLight * planes.lights.size()) * static_cast<size_t>(planes.width) *
                  static_cast<size_t>(planes.height);
   for (const Vec3Plane* plane : {&planes.position, &planes.normal, &planes.rest, &planes.albedo,
-                                 &planes.beauty, &planes.lines})
+                                 &planes.beauty, &planes.lines, &planes.meanNormal})
     bytes += ofVectors(*plane);
   for (const Floats* plane : {&planes.u, &planes.v, &planes.instanceRandom, &planes.emission,
                               &planes.alpha, &planes.linesAlpha, &planes.depth})

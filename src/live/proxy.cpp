@@ -73,7 +73,7 @@ FramePlanes sampleFrame(const FramePlanes& planes, int step) {
   result.height = samplesOf(planes.height, step);
   for (Vec3Plane FramePlanes::*const vectors :
        {&FramePlanes::position, &FramePlanes::normal, &FramePlanes::rest, &FramePlanes::albedo,
-        &FramePlanes::beauty, &FramePlanes::lines})
+        &FramePlanes::beauty, &FramePlanes::lines, &FramePlanes::meanNormal})
     result.*vectors = sample(planes.*vectors, step);
   for (Floats FramePlanes::*const floats :
        {&FramePlanes::u, &FramePlanes::v, &FramePlanes::instanceRandom, &FramePlanes::alpha,

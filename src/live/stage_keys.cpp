@@ -28,7 +28,9 @@ void addLightReading(StageKey& key, const FrameLight& light) {
   const ShadowNeeds& needs = entryOf(light.method).needs;
   addNames(key, light.maskChannels);
   key.add(light.tracedChannel).add(needs.camera).add(light.readsDepthMap);
-  if (light.readsDepthMap) key.add(light.depthMap->file.native()).add(light.depthMap->channel);
+  if (!light.readsDepthMap) return;
+  key.add(light.depthMap->file.native()).add(light.depthMap->channel);
+  key.add(light.automatic || !needs.depthMap);  // whether a map that is doubted is set aside
 }
 
 bool wantsScene(const FramePlan& plan) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "compositor/look_colour.h"
 #include "live/stage_keys.h"
 #include "look/light_strip.h"
 
@@ -34,7 +35,7 @@ const Made<Colour>& StripShelf::colourOf(const Look& look, StageRun& run) {
   StageKey config;
   config.add(look.colourConfig());
   addFile(config, look.colourConfig());
-  return colour_.at(run, "colour", std::move(config), [&] { return Colour(look.colourConfig()); });
+  return colour_.at(run, "colour", std::move(config), [&] { return kagefude::colourOf(look); });
 }
 
 Made<StripSet> StripShelf::stripsOf(const Look& look, const Made<Colour>& colour, StageRun& run) {
@@ -76,12 +77,11 @@ StripSet::Loaded StripShelf::loadMissing(Look look, const Colour& colour,
       const std::string strip = lightStripFrom(entry).strip;
       return strip.empty() || isThere(strip);
     });
-  std::erase_if(look.styles, [&](const StyleLook& style) {
-    return style.style.lightStrips.empty() && isThere(style.style.strip);
-  });
-  std::erase_if(look.lights, [&](const LightLook& light) {
-    return light.light.strip.empty() || isThere(light.light.strip);
-  });
+  // Entries stay, for messages say where in the look the others stand.
+  for (StyleLook& style : look.styles)
+    if (isThere(style.style.strip)) style.style.strip = StyleParams{}.strip;  // loads nothing
+  for (LightLook& light : look.lights)
+    if (!light.light.strip.empty() && isThere(light.light.strip)) light.light.strip.clear();
   if (const std::string ground = groundFile(look); !ground.empty() && isThere(ground))
     look.output.background = Background::beauty;  // shows no file of its own
   return StripSet(look, colour).release();

@@ -137,8 +137,15 @@ float stripOnScreen(const LookPreset& preset, const DraftFrame& frame, const Dra
   return preset.strokeSize * height * powerOf(std::clamp(side, 0.02f, 1.2f), preset.followsSize);
 }
 
+bool hasStrokes(const LookPreset& preset) {
+  return std::none_of(preset.keys.begin(), preset.keys.end(), [](const PresetKey& key) {
+    return key.section == "brush" && key.key == "contrast" && key.value == "0";
+  });
+}
+
 /// World units from the axis at which the strip goes round once.
 float mappingDistance(const LookPreset& preset, const DraftFrame& frame, const DraftThing& thing) {
+  if (!hasStrokes(preset)) return 0;
   return stripOnScreen(preset, frame, thing) * thing.pixelWidth / (2.0f * pi);
 }
 
@@ -179,9 +186,11 @@ std::string valueOf(const PresetKey& key, int height) {
   return fmt::format("{:.1f}", pixels);
 }
 
-std::string sectionsText(const LookPreset& preset, int height) {
+std::string sectionsText(const LookPreset& preset, const DraftFrame& frame) {
+  const int height = frame.height / frame.scale;
   std::string text, section;
   for (const PresetKey& key : preset.keys) {
+    if (key.section == "smooth" && !frame.smooths) continue;
     if (section != key.section) text += fmt::format("\n[{}]\n", section = key.section);
     text += keyLine(std::string(key.key), valueOf(key, height), key.why);
   }
@@ -276,7 +285,7 @@ std::string headText(const LookPreset& preset, const DraftFrame& frame) {
                               keyLine("white", fmt::format("{:.2f}", std::max(white, 0.5f)),
                                       "what is brightest in the frame takes the strips' upper rows")
                         : "") +
-         sectionsText(preset, frame.height / frame.scale);
+         sectionsText(preset, frame);
 }
 
 std::string restText(const LookPreset& preset, const std::string& strip) {

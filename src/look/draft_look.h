@@ -25,6 +25,7 @@ struct DraftFrame {
   int width = 0, height = 0;  ///< pixels
   int scale = 1;              ///< how many times larger it is than what is to be written
   float brightTone = 1;       ///< of all things
+  bool smooths = true;        ///< whether [smooth] acts on the shadow of any of its lights
   std::vector<DraftThing> things;
 };
 
@@ -47,8 +48,10 @@ struct DraftLook {
 /// of a thing of more than a tenth of the frame that stays below three quarters of it its own.
 /// Outlines are thinner on things narrower than three of them, and none on those narrower than 3
 /// pixels. A last style catches what the frame does not show. Strokes are sized by the pixels that
-/// a thing fills; strips that are shown at less than half their size are painted at half of it.
-/// `stripFolder` is the folder of strips as the look names it. The same text for the same frame.
+/// a thing fills, but for presets without strokes (brush.contrast = 0); keys of [smooth] are only
+/// written where they act; strips that are shown at less than half their size are painted at half
+/// of it. `stripFolder` is the folder of strips as the look names it. The same text for the same
+/// frame.
 DraftLook draftLook(const LookPreset& preset, const DraftFrame& frame,
                     const std::string& stripFolder);
 

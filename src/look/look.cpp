@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/plain_file.h"
+#include "look/look_keys.h"
 #include "look/override.h"
 #include "look/parse_toml.h"
 #include "look/read_section.h"
@@ -171,6 +172,18 @@ void spellSections(std::string& text, Scope scope, Owner owner) {
 
 }  // namespace
 
+std::string Look::placeOf(const std::string& key) const {
+  if (!places) return "";
+  const auto found = places->find(key);
+  return found == places->end() ? "" : found->second;
+}
+
+std::string Look::keyWithPlace(const std::string& key) const {
+  const std::string place = placeOf(key);
+  if (place.empty()) return key;
+  return fmt::format("{}{}{}", place, place == "--set" ? " " : ": ", key);
+}
+
 std::filesystem::path Look::resolve(const std::string& path) const { return folder / path; }
 
 std::string Look::colourConfig() const {
@@ -210,6 +223,7 @@ Look readLookText(std::string_view text, const std::filesystem::path& path,
 
   Look look;
   look.folder = path.parent_path();
+  look.places = std::make_shared<const std::map<std::string, std::string>>(placesOf(root));
   readSections(root, sectionsAmong({}), Scope::look, look);
   readLights(root, look);
   readStyles(root, look);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "look/parse_toml.h"
+#include "look/read_section.h"
 
 namespace kagefude {
 namespace {
@@ -64,6 +65,17 @@ std::string withoutKey(std::string_view text, const std::filesystem::path& path,
   std::ostringstream out;
   out << look;
   return out.str();
+}
+
+std::map<std::string, std::string> placesOf(toml::table& look) {
+  std::map<std::string, std::string> places;
+  visitTable(look, "", [&](toml::table& owner, const std::string& own, const std::string& name) {
+    const toml::node& node = *owner.get(own);
+    const toml::source_region& source = node.source();
+    const bool ofFile = source.path && !source.path->starts_with("--set");
+    places.emplace(name, ofFile ? placeOf(node) : "--set");
+  });
+  return places;
 }
 
 }  // namespace kagefude

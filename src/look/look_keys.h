@@ -1,6 +1,9 @@
 #pragma once
 
+#include <toml++/toml.h>
+
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,5 +19,9 @@ std::vector<std::string> keysOf(std::string_view text, const std::filesystem::pa
 /// and order are lost.
 std::string withoutKey(std::string_view text, const std::filesystem::path& path,
                        const std::string& key);
+
+/// Where each key of a look that is parsed stands, by the names of keysOf: its file and line, or
+/// "--set" where an override gave it.
+std::map<std::string, std::string> placesOf(toml::table& look);
 
 }  // namespace kagefude

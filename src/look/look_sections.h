@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -80,7 +82,14 @@ struct Look {
   PassParams passes;
   std::vector<LightLook> lights;
   std::vector<StyleLook> styles;
+  /// Where each key stands that is set, by its name as --set has it ("style[1].strip"):
+  /// "look.toml:12", or "--set"; null where no text was read.
+  std::shared_ptr<const std::map<std::string, std::string>> places;
 
+  /// Where a key stands, "" where it is not set.
+  std::string placeOf(const std::string& key) const;
+  /// What messages about what a key names begin with: "look.toml:12: style[1].strip".
+  std::string keyWithPlace(const std::string& key) const;
   /// The file that a path in the look means.
   std::filesystem::path resolve(const std::string& path) const;
   /// The OCIO config that the look names, resolved; "" when it names none.

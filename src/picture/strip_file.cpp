@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 #include "base/plain_file.h"
 #include "exr/image_file.h"
 #include "exr/read_channels.h"
@@ -27,6 +28,22 @@ struct Source {
 
 [[noreturn]] void refuse(const Source& source, const std::string& why) {
   throw InputError(fmt::format("{} {} {}", source.what, source.path.string(), why));
+}
+
+/// Of the pictures beside it the one whose name is nearest, as a question; suffixes do not count.
+std::string nearestFile(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files;
+  std::error_code failed;
+  const std::filesystem::path folder = path.parent_path().empty() ? "." : path.parent_path();
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
+    files.push_back(entry.path().filename());
+  std::sort(files.begin(), files.end());
+  std::vector<std::string> stems;
+  for (const std::filesystem::path& file : files) stems.push_back(file.stem().string());
+  const std::optional<std::string> nearest = nearestName(path.stem().string(), stems);
+  if (!nearest) return "";
+  const auto found = std::find(stems.begin(), stems.end(), *nearest) - stems.begin();
+  return fmt::format(" (did you mean {}?)", files[static_cast<size_t>(found)].string());
 }
 
 /// Before anything of the picture's size is allocated.
@@ -150,7 +167,7 @@ StripPicture readOtherStrip(const Source& source) {
 StripPicture readStrip(const std::filesystem::path& path, std::string_view what) {
   const Source source{path, what};
   std::error_code missing;
-  if (!std::filesystem::exists(path, missing)) refuse(source, "does not exist");
+  if (!std::filesystem::exists(path, missing)) refuse(source, "does not exist" + nearestFile(path));
   requirePlainFile(path);
   if (startsWith(path, {0x89, 'P', 'N', 'G'})) return readPngStrip(path);
   if (startsWith(path, {0x76, 0x2f, 0x31, 0x01})) return readExrStrip(source);

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/frame_pattern.h"
 #include "compositor/compose_frame.h"
+#include "compositor/look_colour.h"
 #include "compositor/read_frame.h"
 #include "compositor/write_frame.h"
 
@@ -48,7 +49,7 @@ double median(std::vector<double> values) {
 FrameBench benchFrame(const Look& look, const std::filesystem::path& input,
                       const std::filesystem::path& output, int rounds) {
   if (rounds < 1) throw UsageError("a benchmark takes at least one round");
-  const Colour colour(look.colourConfig());
+  const Colour colour = colourOf(look);
   const StripSet strips(look, colour);
   FrameBench bench;
   std::vector<std::vector<double>> seconds;

@@ -12,6 +12,7 @@
 #include "compositor/compose_frame.h"
 #include "compositor/frame_files.h"
 #include "compositor/frame_memory.h"
+#include "compositor/look_colour.h"
 #include "compositor/read_frame.h"
 #include "compositor/write_frame.h"
 #include "exr/header_claims.h"
@@ -151,7 +152,7 @@ CompBatch::CompBatch(const Look& look, CompRequest request)
       request_(std::move(request)),
       jobs_(planJobs(request_.plan, &notes_)),
       kinds_(kindsOf(look, request_.plan.outputs)),
-      colour_(look.colourConfig()),
+      colour_(colourOf(look)),
       strips_(look, colour_),
       common_(commonFingerprint(look, colour_)),
       view_(kinds_.size() > 1 || isShown(0) || request_.thumbnails

@@ -96,7 +96,7 @@ class Export(unittest.TestCase):
         wanted = {"data.Normal.X", "data.Position.Z", "data.Depth.V", "data.IndexOB.V",
                   "data.IndexMA.V", "data.Vector.X", "data.UV.X", "data.DiffCol.R",
                   "data.CryptoObject00.R", "data.CryptoMaterial00.R", "beauty.Combined.R",
-                  "data.Emit.R"}
+                  "data.MeanNormal.X", "data.Emit.R"}
         for light in self.document["lights"]:
             wanted |= {sample["layer"] + ".V" for sample in light["masks"]["samples"]}
             wanted.add(light["truth_layer"] + ".V")
@@ -179,6 +179,16 @@ class Export(unittest.TestCase):
         found = {bits(value) for value in self.channel("data.CryptoObject00.R")}
         for item in self.document["objects"]:
             self.assertIn(int(item["crypto"], 16), found)
+
+    def test_mean_normals_are_those_of_all_samples(self):
+        own, mean = (list(zip(*(self.channel(f"data.{name}.{axis}") for axis in "XYZ")))
+                     for name in ("Normal", "MeanNormal"))
+        lengths = [math.hypot(*normal) for normal in mean]
+        self.assertLess(max(lengths), 1.001)
+        mixed = sum(0.1 < length < 0.95 for length in lengths)
+        self.assertGreater(mixed, 50, "edges are mixtures")
+        same = sum(math.dist(a, b) < 0.1 for a, b in zip(own, mean))
+        self.assertGreater(same, 0.7 * len(own), "away from them one surface fills the pixel")
 
     def test_bounds_and_reference_points(self):
         ball = self.entry("objects", "Ball")

@@ -4,6 +4,7 @@
 import unittest
 
 from blender_case import BlenderCase, blender_says
+from exr_pixels import read_exr
 
 # A ball shaded smooth, boxes, a thin rod and all kinds of light; one light moves in frame 2. The
 # camera stands askew, or a shadow's edge would run along a whole row of pixels' centres.
@@ -79,13 +80,34 @@ class MaskBackends(BlenderCase):
             # centre, round which their samples lie.
             self.assert_close(self.masks(f"{rays()}/s", frame)[0], wanted, 1e-3)
             self.assert_close(self.masks("groups/s", frame)[0], wanted, 1e-3)
+            self.assert_same_depth_maps(frame)
         self.assertNotEqual(self.masks(f"{rays()}/s", 1)[0]["mask.Point.0"],
                             self.masks(f"{rays()}/s", 2)[0]["mask.Point.0"])
 
+    def assert_same_depth_maps(self, frame):
+        """By rays and by layers; their views differ a little, as what the masks hide does."""
+        for light in self.document(frame, "layers/s")["lights"]:
+            one, other = ([value for row in read_exr(self.path(f"{way}/{light['depth_map']['file']}"))[0]
+                           [light["depth_map"]["channel"]] for value in row]
+                          for way in ("layers", rays()))
+            alike = sum(abs(a - b) < 0.02 * b for a, b in zip(one, other))
+            self.assertGreater(alike, 0.9 * len(one), light["name"])
+
     def test_auto_takes_layers_where_there_is_no_raycast_node(self):
-        said = self.export(self.build(SCENE), "--masks", "disc:5", "--light", "Point")
+        said = self.export(self.build(SCENE + """
+for name in ("Rod", "Ball"):
+    bpy.data.objects.remove(bpy.data.objects[name])
+"""), "--masks", "disc:5", "--light", "Point")
         self.assertEqual(self.masks("out/s")[1], {"Point": "raycast" if has_raycast() else "layers"})
         self.assertEqual(self.notes(said), [])
+
+    def test_auto_takes_layers_where_coarse_faces_are_shaded_smooth(self):
+        said = self.export(self.build(SCENE), "--masks", "disc:5", "--light", "Point")
+        self.assertEqual(self.masks("out/s")[1], {"Point": "layers"})
+        self.assertEqual(self.notes(said), [
+            "the masks of light 'Point' are rendered by layers instead of raycast: object 'Ball' has "
+            "coarse faces that are shaded smooth, where rays and lamps see different things"]
+            if has_raycast() else [])
 
     def test_faces_without_a_material_and_bumps_have_the_masks_of_layers(self):
         """Nothing can be put into no material, and a bump turns a normal that no mask may know."""

@@ -114,6 +114,26 @@ TEST_F(EdgesAndAlpha, StrokesEndByTheirCryptomatteCoverage) {
   EXPECT_NEAR(soft.x, 0.25f * whole.x, 1e-6f) << "colour is associated";
 }
 
+TEST_F(EdgesAndAlpha, MeanNormalsSayHowMuchOfAPixelEachSideOfAThingHas) {
+  addCryptomatte(1.0f);
+  const V3f level(0, 0, 1), away(0.8f, 0, -0.6f);
+  for (int x = 0; x < MapFrame::side; ++x) frame.setVector("Normal", x, 7, away);
+  const FrameResult without = frame.comp(transparent);
+  const V3f lit = colourAt(without, 4, 5), dark = colourAt(without, 4, 7);
+  ASSERT_GT(lit.x - dark.x, 0.2f);
+  for (int y = 0; y < MapFrame::side; ++y)
+    for (int x = 0; x < MapFrame::side; ++x)
+      frame.setVector("MeanNormal", x, y,
+                      y == 6   ? level * 0.75f + away * 0.25f
+                      : y == 7 ? away
+                               : level);
+  const FrameResult with = frame.comp(transparent);
+  EXPECT_NEAR(colourAt(with, 4, 6).x, 0.75f * lit.x + 0.25f * dark.x, 0.03f);
+  EXPECT_EQ(colourAt(with, 4, 5), lit) << "one side alone";
+  const char* const pixel = "output.edges = \"pixel\"\noutput.background = \"transparent\"\n";
+  EXPECT_NEAR(frame.comp(pixel).colour.x(4, 6), lit.x, 0.01f) << "as its centre shows it";
+}
+
 TEST_F(EdgesAndAlpha, TheBeautyFillsWhatTheStrokesLeave) {
   addCryptomatte(0.25f);
   const V3f behind{0.1f, 0.2f, 0.3f};

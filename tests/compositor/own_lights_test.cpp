@@ -152,8 +152,14 @@ TEST_F(LightsOfTheirOwn, WhatSurfacesGiveOffLiftsTheirTone) {
   EXPECT_NEAR(tone(5, 4), lit, 1e-6f);
 }
 
-TEST_F(LightsOfTheirOwn, EmissionIsAskedForWhereThereIsNone) {
-  EXPECT_NE(frame.errorOf("tone.emission = 1\n").find("Emission"), std::string::npos);
+TEST_F(LightsOfTheirOwn, EmissionThatThereIsNotLiftsNothingAndIsSaid) {
+  const FrameResult without = frame.comp("tone.emission = 1\n");
+  ASSERT_EQ(without.warnings.size(), 1u);
+  EXPECT_NE(without.warnings[0].find("no Emission pass"), std::string::npos);
+  EXPECT_NEAR(frame.tone("tone.emission = 1\n")(3, 4), keyPart + rimPart, 1e-6f);
+  // A pass that is named and is not there is a slip.
+  EXPECT_NE(frame.errorOf("tone.emission = 1\nframe.emission = \"Glow\"\n").find("Glow"),
+            std::string::npos);
 }
 
 }  // namespace

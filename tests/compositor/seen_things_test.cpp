@@ -93,5 +93,39 @@ TEST(CheckLook, TellsWhatDoesNothing) {
   EXPECT_GE(calls, 3u);
 }
 
+TEST(CheckLook, StylesThatWaitForOtherFramesAreNoProblem) {
+  TestFrame frame(8, 4);
+  showTwoThings(frame);
+  frame.addObject("Hat", 3, {-1, -1, -1}, {1, 1, 1});  // is not seen
+  const auto checkOf = [&](const std::string& look) {
+    return checkLook(look, frame.folder / "look.toml", std::vector{frame.write()},
+                     [](size_t, size_t) {});
+  };
+  const std::string style = "[[style]]\nstrip = \"builtin:soft\"\ntone.black = 0.1\nobject = ";
+  const LookCheck fresh = checkOf(style + "\"Thing\"\n" + style + "\"Other\"\n" + style +
+                                  "\"Hat\"\n" + style + "\"*\"\npriority = -1\n");
+  EXPECT_EQ(fresh.problems, std::vector<std::string>());
+  EXPECT_EQ(fresh.waiting,
+            (std::vector<std::string>{
+                "style 3 (object Hat): its things are not seen",
+                "style 4 (object *): styles of higher priority paint all that is seen of it"}));
+  // Other lies behind Thing, which is on both sides of it, and has no line of its own.
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 5; x < 7; ++x) frame.plane("Position.Z")(x, y) = -5;
+    frame.plane("IndexOB.X")(7, y) = 1;
+  }
+  const std::string lines = "outline_colour = [1, 0, 0]\n";
+  const LookCheck lined = checkOf(style + "\"Thing\"\n" + lines + style + "\"Other\"\n" + lines);
+  EXPECT_EQ(lined.problems, std::vector<std::string>());
+  EXPECT_EQ(lined.waiting,
+            std::vector<std::string>{"style[1].outline_colour changes nothing in this frame, as it "
+                                     "does for others"});
+  const LookCheck hidden = checkOf(style + "\"Thing\"\n" + style + "\"Thi*\"\n");
+  EXPECT_EQ(hidden.problems,
+            std::vector<std::string>{"style 2 (object Thi*) paints nothing: styles of the same "
+                                     "priority come first wherever it fits"});
+  EXPECT_TRUE(hidden.waiting.empty());
+}
+
 }  // namespace
 }  // namespace kagefude

@@ -95,6 +95,24 @@ for option in --frames --chunk --preview --report --max-memory; do
   expect 2 "empty" comp look.toml one.exr -o x.exr "$option" ''
 done
 
+# inspect: a frame that is wrong is no success, what is only missing is one; maps are looked at.
+cp "$data/shot.0001.exr" whole.exr
+expect 0 "there is no JSON beside the frame" inspect whole.exr
+echo '{"kagefude": 1' >whole.json
+expect 1 "whole.json is not valid JSON" inspect whole.exr
+check "inspect: no ERROR line" grep -q '^ERROR: whole.exr cannot be used as it is: ' log
+expect 1 '"findings"' inspect whole.exr --json
+sed 's/shot.Key.depth.0001.exr/whole.depth.exr/' "$data/shot.0001.json" >whole.json
+head -c 300 "$data/shot.Key.depth.0001.exr" >whole.depth.exr
+expect 1 "whole.depth.exr" inspect whole.exr
+oiiotool "$data/shot.Key.depth.0001.exr" --rotate180 -o whole.depth.exr
+expect 0 "warning: the depth map of light Key" inspect whole.exr
+expect 0 "does not fit its masks" inspect whole.exr --json
+expect 0 "set aside" comp look.toml whole.exr -o x.exr
+cp "$data/shot.Key.depth.0001.exr" whole.depth.exr
+expect 0 "" inspect whole.exr
+check "the light's own map is doubted: $(grep 'does not fit' log)" test "$(grep -c 'does not fit' log)" -eq 0
+
 # Deep and huge: refused at once, within little memory and the smallest stack.
 small() { # small CODE TEXT ARGUMENTS...
   expect_in() { ( ulimit -v 1500000 -s 256; run "$@" ); }

@@ -10,6 +10,7 @@ says() { # says FILE TEXT...: every text is in the file
   shift
   for text in "$@"; do check "not said: $text (but: $(head -c 400 "$file"))" grep -qF -- "$text" "$file"; done
 }
+checked() { "$kagefude" look check "$@" >"$work/checked" 2>&1 || { grep problem "$work/checked" >&2; return 1; }; }
 quiet() { "$@" >"$work/quiet" 2>&1; }
 # refused CODE PART COMMAND...: that exit code, one line of error, which holds the part.
 refused() {
@@ -27,6 +28,7 @@ for preset in "${presets[@]}"; do
   check "$preset: its look does not comp" "$kagefude" comp "$work/looks/$preset.toml" "$frame" \
     -o "$work/comp/shot.0001.exr" --preview "$work/comp" --progress none
   check "$preset: the preview is not what comp makes" quiet oiiotool "$work/$preset.png" "$work/comp/shot.0001.png" --diff
+  check "$preset: its look does not pass its own check" checked "$work/looks/$preset.toml" "$frame"
   for strip in "$work/looks/${preset}_strips"/*.png; do
     check "$strip is not fit to paint with" quiet "$kagefude" strip check "$strip"
   done

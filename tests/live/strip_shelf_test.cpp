@@ -60,6 +60,19 @@ TEST_F(SpareStrips, TheyStayWithinTheirBytes) {
   EXPECT_THROW(show(shelf, "a.png"), InputError);
 }
 
+TEST_F(SpareStrips, OneThatIsMissingIsCalledByItsLineWhateverElseIsThere) {
+  writeStrip("a.png", 0.2f);
+  StripShelf shelf;
+  show(shelf, "a.png");
+  const Look look = readLookText(
+      "[[style]]\nobject = \"A\"\nstrip = \"a.png\"\n[[style]]\nstrip = \"none.png\"\n",
+      folder_ / "look.toml", {});
+  StageRun run;
+  const std::string said =
+      messageOf<InputError>([&] { shelf.stripsOf(look, shelf.colourOf(look, run), run); });
+  EXPECT_NE(said.find("look.toml:5: style[1].strip: "), std::string::npos) << said;
+}
+
 TEST_F(SpareStrips, AStripThatCannotBeReadLosesNoOther) {
   writeStrip("a.png", 0.2f);
   StripShelf shelf;

@@ -27,7 +27,9 @@ DraftThing thing(const std::string& object, const std::string& material, size_t 
   return result;
 }
 
-DraftFrame frameOf(std::vector<DraftThing> things) { return {"f.exr", 400, 200, 1, 1, things}; }
+DraftFrame frameOf(std::vector<DraftThing> things) {
+  return {"f.exr", 400, 200, 1, 1, true, things};
+}
 
 Look lookOf(const DraftLook& draft) { return readLookText(draft.text, "look.toml", {}); }
 
@@ -47,6 +49,19 @@ TEST(DraftLook, EveryPresetIsALookWithItsStrips) {
     EXPECT_EQ(look.styles[0].style.outlineColour.empty(), preset.outlineLightness < 0);
   }
   EXPECT_THROW(lookPreset("gouash"), UsageError);
+}
+
+TEST(DraftLook, WhatWouldDoNothingIsNotWritten) {
+  DraftFrame frame = frameOf({thing("Cup", "Glaze", 9000, {0.1f, 0.2f, 0.5f})});
+  const auto textOf = [&](const char* preset) {
+    return draftLook(lookPreset(preset), frame, "s").text;
+  };
+  EXPECT_NE(textOf("oil").find("[smooth]"), std::string::npos);
+  EXPECT_NE(textOf("oil").find("brush.mapping_distance"), std::string::npos);
+  EXPECT_EQ(textOf("cel").find("brush.mapping_distance"), std::string::npos) << "it has no strokes";
+  frame.smooths = false;
+  for (const LookPreset& preset : lookPresets())
+    EXPECT_EQ(draftLook(preset, frame, "s").text.find("smooth"), std::string::npos) << preset.name;
 }
 
 TEST(DraftLook, LengthsStayInTheirRangesOnSmallFrames) {

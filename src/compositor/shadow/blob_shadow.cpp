@@ -1,3 +1,4 @@
+#include "base/place_error.h"
 #include "compositor/shadow/caster_light.h"
 #include "passes/casters/planar_projection.h"
 #include "passes/casters/texture_shadow.h"
@@ -8,7 +9,7 @@ namespace {
 
 Floats blobPicture(const std::filesystem::path& file) {
   if (file.empty()) return {};
-  StripPicture picture = readStrip(file);
+  StripPicture picture = readStrip(file, "picture");
   Floats grey(picture.width(), picture.height());
   for (size_t i = 0; i < grey.view().pixels(); ++i)
     grey.row(0)[i] = (picture.red.row(0)[i] + picture.green.row(0)[i] + picture.blue.row(0)[i]) / 3;
@@ -32,7 +33,7 @@ LightVisibility blobShadow(const ShadowWork& work) {
                                  light.passes.blob));
       ids.push_back(work.plan.idSource == IdSource::index ? object.index : object.cryptoId);
     }
-  const Floats picture = blobPicture(light.blob);
+  const Floats picture = withPlace(light.blobNamed, [&] { return blobPicture(light.blob); });
   return {blobTone(frame.position, frame.objectId, places, ids, picture, light.passes.blob), {}};
 }
 

@@ -1,23 +1,15 @@
 #include "passes/edges/inner_edges.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "image/parallel.h"
 #include "passes/edges/crease_line.h"
-#include "passes/edges/stair_share.h"
 #include "passes/strip/strip.h"
 
 namespace kagefude {
 namespace {
 
-struct Step {
-  int x, y;
-};
-// The four sides first, then the corners.
-constexpr std::array<Step, 8> steps{
-    {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
 constexpr size_t sides = 4;
 constexpr int longestRun = 32;
 
@@ -26,151 +18,148 @@ struct Blended {
   Rgba colour;
 };
 
-class InnerEdges {
- public:
-  InnerEdges(const EdgeSurfaces& surfaces, const PaintViews& paint) : s_(surfaces), paint_(paint) {}
+Rgba at(const PaintViews& paint, int x, int y) {
+  return Rgba{paint.r(x, y), paint.g(x, y), paint.b(x, y), paint.a(x, y)};
+}
 
-  /// Whether an edge runs between a pixel and its neighbour; none runs along the frame's border.
-  bool edge(int x, int y, Step step) const {
-    const int qx = x + step.x, qy = y + step.y;
-    if (!s_.ids.contains(x, y) || !s_.ids.contains(qx, qy)) return false;
-    if (s_.styles(x, y) != s_.styles(qx, qy)) return true;
-    const bool forward = step.y > 0 || (step.y == 0 && step.x > 0);
-    const uint8_t joins = forward ? s_.joins(x, y) : s_.joins(qx, qy);
-    const Step way = forward ? step : Step{-step.x, -step.y};
-    const JoinedWay bit = way.y == 0   ? joinedRight
-                          : way.x == 0 ? joinedDown
-                          : way.x < 0  ? joinedDownLeft
-                                       : joinedDownRight;
-    return (joins & bit) == 0;
-  }
+Rgba blended(const InnerEdges& edges, const PaintViews& paint, int x, int y) {
+  const std::array<double, 8> shares = edges.shares(x, y);
+  double total = 0;
+  for (const double share : shares) total += share;
+  Rgba sum = at(paint, x, y) * static_cast<float>(1 - total);
+  for (size_t i = 0; i < shares.size(); ++i)
+    if (shares[i] > 0)
+      sum += at(paint, x + edgeSteps[i].x, y + edgeSteps[i].y) * static_cast<float>(shares[i]);
+  return sum;
+}
 
-  /// Whether nothing about a pixel needs a second look.
-  bool plain(int x, int y) const {
-    constexpr uint8_t all = joinedRight | joinedDown | joinedDownLeft | joinedDownRight;
-    if (s_.ids(x, y) == 0) return true;
-    if (x == 0 || y == 0 || x + 1 == s_.ids.width || y + 1 == s_.ids.height) return false;
-    const uint16_t style = s_.styles(x, y);
-    return s_.joins(x, y) == all && (s_.joins(x - 1, y) & joinedRight) &&
-           (s_.joins(x, y - 1) & joinedDown) && (s_.joins(x + 1, y - 1) & joinedDownLeft) &&
-           (s_.joins(x - 1, y - 1) & joinedDownRight) && s_.styles(x + 1, y) == style &&
-           s_.styles(x, y + 1) == style && s_.styles(x - 1, y) == style &&
-           s_.styles(x, y - 1) == style;
-  }
-
-  Rgba blended(int x, int y) const {
-    std::array<double, 8> shares{};
-    creases(x, y, shares);
-    stairs(x, y, shares);
-    double total = 0;
-    for (const double share : shares) total += share;
-    const double scale = total > 1 ? 1 / total : 1;
-    Rgba sum = at(x, y) * static_cast<float>(1 - total * scale);
-    for (size_t i = 0; i < steps.size(); ++i)
-      if (shares[i] > 0)
-        sum += at(x + steps[i].x, y + steps[i].y) * static_cast<float>(shares[i] * scale);
-    return sum;
-  }
-
-  void set(const Blended& pixel) const {
-    paint_.r(pixel.x, pixel.y) = pixel.colour[0];
-    paint_.g(pixel.x, pixel.y) = pixel.colour[1];
-    paint_.b(pixel.x, pixel.y) = pixel.colour[2];
-    paint_.a(pixel.x, pixel.y) = pixel.colour[3];
-  }
-
- private:
-  Rgba at(int x, int y) const {
-    return Rgba{paint_.r(x, y), paint_.g(x, y), paint_.b(x, y), paint_.a(x, y)};
-  }
-
-  /// Whether an edge is one to be blended here.
-  bool blends(int x, int y, Step step) const {
-    const uint32_t own = s_.ids(x, y);
-    if (!edge(x, y, step)) return false;
-    const uint32_t other = s_.ids(x + step.x, y + step.y);
-    return own == other || (s_.betweenObjects && other != 0);
-  }
-
-  SurfacePoint surface(int x, int y) const {
-    return {V3d(s_.position(x, y)) - s_.rays->eye, V3d(s_.normal(x, y))};
-  }
-
-  std::optional<HalfPlane> crease(int x, int y, Step step) const {
-    if (!s_.rays || s_.normal.empty()) return {};
-    return creaseLine(surface(x, y), surface(x + step.x, y + step.y), *s_.rays, x, y, step.x,
-                      step.y);
-  }
-
-  /// The shares beyond creases: what all of them cut off, dealt out by what each cuts off alone.
-  void creases(int x, int y, std::array<double, 8>& shares) const {
-    PixelCut whole;
-    double sum = 0;
-    for (size_t i = 0; i < steps.size(); ++i) {
-      if (!blends(x, y, steps[i])) continue;
-      const std::optional<HalfPlane> line = crease(x, y, steps[i]);
-      if (!line) continue;
-      PixelCut alone;
-      alone.take(*line);
-      whole.take(*line);
-      shares[i] = 1 - alone.area();
-      sum += shares[i];
-    }
-    if (!(sum > 0)) return;
-    const double scale = (1 - whole.area()) / sum;
-    for (double& share : shares) share *= scale;
-  }
-
-  /// The run of edges beside a pixel toward `side`, on to `along`.
-  RunEnd follow(int x, int y, Step side, Step along) const {
-    RunEnd end;
-    for (; end.pixels < longestRun; ++end.pixels) {
-      const bool own = edge(x, y, along), other = edge(x + side.x, y + side.y, along);
-      const bool on = edge(x + along.x, y + along.y, side);
-      if (own || other || !on) {
-        end.turn = on || own == other ? 0 : own ? 1 : -1;
-        return end;
-      }
-      x += along.x;
-      y += along.y;
-    }
-    return end;
-  }
-
-  /// The shares beyond edges of which only the staircase is known. A slope near 45 degrees is seen
-  /// in a row's run and a column's alike, so the greater counts, not both.
-  void stairs(int x, int y, std::array<double, 8>& shares) const {
-    std::array<double, sides> own{};
-    for (size_t i = 0; i < sides; ++i) {
-      const Step side = steps[i], along{side.y, side.x};
-      if (!blends(x, y, side) || crease(x, y, side)) continue;
-      own[i] = stairShare(follow(x, y, side, {-along.x, -along.y}), follow(x, y, side, along));
-    }
-    const double across = own[0] + own[2], down = own[1] + own[3];
-    if (!(across + down > 0)) return;
-    const double scale = std::max(across, down) / (across + down);
-    for (size_t i = 0; i < sides; ++i) shares[i] += own[i] * scale;
-  }
-
-  const EdgeSurfaces& s_;
-  const PaintViews& paint_;
-};
+void set(const PaintViews& paint, const Blended& pixel) {
+  paint.r(pixel.x, pixel.y) = pixel.colour[0];
+  paint.g(pixel.x, pixel.y) = pixel.colour[1];
+  paint.b(pixel.x, pixel.y) = pixel.colour[2];
+  paint.a(pixel.x, pixel.y) = pixel.colour[3];
+}
 
 }  // namespace
 
+/// None runs along the frame's border.
+bool InnerEdges::edge(int x, int y, EdgeStep step) const {
+  const int qx = x + step.x, qy = y + step.y;
+  if (!s_.ids.contains(x, y) || !s_.ids.contains(qx, qy)) return false;
+  if (s_.styles(x, y) != s_.styles(qx, qy)) return true;
+  const bool forward = step.y > 0 || (step.y == 0 && step.x > 0);
+  const uint8_t joins = forward ? s_.joins(x, y) : s_.joins(qx, qy);
+  const EdgeStep way = forward ? step : EdgeStep{-step.x, -step.y};
+  const JoinedWay bit = way.y == 0   ? joinedRight
+                        : way.x == 0 ? joinedDown
+                        : way.x < 0  ? joinedDownLeft
+                                     : joinedDownRight;
+  return (joins & bit) == 0;
+}
+
+bool InnerEdges::plain(int x, int y) const {
+  constexpr uint8_t all = joinedRight | joinedDown | joinedDownLeft | joinedDownRight;
+  if (s_.ids(x, y) == 0) return true;
+  if (x == 0 || y == 0 || x + 1 == s_.ids.width || y + 1 == s_.ids.height) return false;
+  const uint16_t style = s_.styles(x, y);
+  return s_.joins(x, y) == all && (s_.joins(x - 1, y) & joinedRight) &&
+         (s_.joins(x, y - 1) & joinedDown) && (s_.joins(x + 1, y - 1) & joinedDownLeft) &&
+         (s_.joins(x - 1, y - 1) & joinedDownRight) && s_.styles(x + 1, y) == style &&
+         s_.styles(x, y + 1) == style && s_.styles(x - 1, y) == style &&
+         s_.styles(x, y - 1) == style;
+}
+
+std::array<double, 8> InnerEdges::shares(int x, int y) const {
+  std::array<double, 8> shares{};
+  creases(x, y, shares);
+  stairs(x, y, shares);
+  double total = 0;
+  for (const double share : shares) total += share;
+  if (total > 1)
+    for (double& share : shares) share /= total;
+  return shares;
+}
+
+/// Whether an edge is one to be blended here.
+bool InnerEdges::blends(int x, int y, EdgeStep step) const {
+  const uint32_t own = s_.ids(x, y);
+  if (!edge(x, y, step)) return false;
+  const uint32_t other = s_.ids(x + step.x, y + step.y);
+  return own == other || (s_.betweenObjects && other != 0);
+}
+
+std::optional<HalfPlane> InnerEdges::crease(int x, int y, EdgeStep step) const {
+  if (!s_.rays || s_.normal.empty()) return {};
+  const auto surface = [this](int px, int py) {
+    return SurfacePoint{V3d(s_.position(px, py)) - s_.rays->eye, V3d(s_.normal(px, py))};
+  };
+  return creaseLine(surface(x, y), surface(x + step.x, y + step.y), *s_.rays, x, y, step.x, step.y);
+}
+
+/// The shares beyond creases: what all of them cut off, dealt out by what each cuts off alone.
+void InnerEdges::creases(int x, int y, std::array<double, 8>& shares) const {
+  PixelCut whole;
+  double sum = 0;
+  for (size_t i = 0; i < edgeSteps.size(); ++i) {
+    if (!blends(x, y, edgeSteps[i])) continue;
+    const std::optional<HalfPlane> line = crease(x, y, edgeSteps[i]);
+    if (!line) continue;
+    PixelCut alone;
+    alone.take(*line);
+    whole.take(*line);
+    shares[i] = 1 - alone.area();
+    sum += shares[i];
+  }
+  if (!(sum > 0)) return;
+  const double scale = (1 - whole.area()) / sum;
+  for (double& share : shares) share *= scale;
+}
+
+/// The run of edges beside a pixel toward `side`, on to `along`.
+RunEnd InnerEdges::follow(int x, int y, EdgeStep side, EdgeStep along) const {
+  RunEnd end;
+  for (; end.pixels < longestRun; ++end.pixels) {
+    const bool own = edge(x, y, along), other = edge(x + side.x, y + side.y, along);
+    const bool on = edge(x + along.x, y + along.y, side);
+    if (own || other || !on) {
+      end.turn = on || own == other ? 0 : own ? 1 : -1;
+      return end;
+    }
+    x += along.x;
+    y += along.y;
+  }
+  return end;
+}
+
+/// The shares beyond edges of which only the staircase is known. A slope near 45 degrees is seen
+/// in a row's run and a column's alike, so the greater counts, not both.
+void InnerEdges::stairs(int x, int y, std::array<double, 8>& shares) const {
+  std::array<double, sides> own{};
+  for (size_t i = 0; i < sides; ++i) {
+    const EdgeStep side = edgeSteps[i], along{side.y, side.x};
+    if (!blends(x, y, side) || crease(x, y, side)) continue;
+    own[i] = stairShare(follow(x, y, side, {-along.x, -along.y}), follow(x, y, side, along));
+  }
+  const double across = own[0] + own[2], down = own[1] + own[3];
+  if (!(across + down > 0)) return;
+  const double scale = std::max(across, down) / (across + down);
+  for (size_t i = 0; i < sides; ++i) shares[i] += own[i] * scale;
+}
+
 void blendInnerEdges(const EdgeSurfaces& surfaces, const PaintViews& paint) {
-  const InnerEdges edges(surfaces, paint);
+  const InnerEdges edges(surfaces);
   const int width = surfaces.ids.width, height = surfaces.ids.height;
   // Colours are set when all have been read.
   std::vector<std::vector<Blended>> rows(static_cast<size_t>(height));
   parallelRows(height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < width; ++x)
-        if (!edges.plain(x, y)) rows[static_cast<size_t>(y)].push_back({x, y, edges.blended(x, y)});
+        if (!edges.plain(x, y))
+          rows[static_cast<size_t>(y)].push_back({x, y, blended(edges, paint, x, y)});
   });
   parallelRows(height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
-      for (const Blended& pixel : rows[static_cast<size_t>(y)]) edges.set(pixel);
+      for (const Blended& pixel : rows[static_cast<size_t>(y)]) set(paint, pixel);
   });
 }
 

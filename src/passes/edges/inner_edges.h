@@ -1,8 +1,13 @@
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "image/vec.h"
 #include "passes/casters/camera_rays.h"
 #include "passes/edges/behind_paint.h"
+#include "passes/edges/pixel_cut.h"
+#include "passes/edges/stair_share.h"
 #include "passes/tone/surfaces.h"
 
 namespace kagefude {
@@ -26,5 +31,34 @@ struct EdgeSurfaces {
 /// from edges are not touched. paint: in place, scene-linear, associated. Cost: a look at every
 /// pixel's joins, some hundred operations at an edge.
 void blendInnerEdges(const EdgeSurfaces& surfaces, const PaintViews& paint);
+
+/// A way to one of a pixel's neighbours: the four sides first, then the corners.
+struct EdgeStep {
+  int x, y;
+};
+inline constexpr std::array<EdgeStep, 8> edgeSteps{
+    {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
+
+/// How much of each pixel's square shows the surfaces of its neighbours, as blendInnerEdges mixes
+/// them. The surfaces' planes must outlive it.
+class InnerEdges {
+ public:
+  explicit InnerEdges(const EdgeSurfaces& surfaces) : s_(surfaces) {}
+
+  /// Whether nothing about a pixel needs a second look.
+  bool plain(int x, int y) const;
+  /// The share of each neighbour, in the order of edgeSteps; at most 1 together.
+  std::array<double, 8> shares(int x, int y) const;
+
+ private:
+  bool edge(int x, int y, EdgeStep step) const;
+  bool blends(int x, int y, EdgeStep step) const;
+  std::optional<HalfPlane> crease(int x, int y, EdgeStep step) const;
+  void creases(int x, int y, std::array<double, 8>& shares) const;
+  RunEnd follow(int x, int y, EdgeStep side, EdgeStep along) const;
+  void stairs(int x, int y, std::array<double, 8>& shares) const;
+
+  EdgeSurfaces s_;
+};
 
 }  // namespace kagefude

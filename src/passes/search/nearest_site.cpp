@@ -149,6 +149,7 @@ std::vector<LabelBox> boxesWithin(View<const uint8_t> wantedKinds, uint8_t wante
   const int margin = static_cast<int>(std::min(reach, static_cast<float>(longestSide))) + 1;
   const int across = (width + nearColumns - 1) / nearColumns;
   std::vector<LabelBox> boxes;
+  uint64_t pixels = 0;
   for (int y = 0; y < height; y += nearRows) {
     const int end = std::min(y + nearRows, height);
     const std::vector<uint8_t> wants = wantedStrips(wantedKinds, wantedKind, y, end);
@@ -168,9 +169,11 @@ std::vector<LabelBox> boxesWithin(View<const uint8_t> wantedKinds, uint8_t wante
                    end};
       box.pixels = static_cast<uint32_t>(box.x1 - box.x0) * static_cast<uint32_t>(box.y1 - box.y0);
       boxes.push_back(box);
+      pixels += box.pixels;
     }
   }
-  return boxes;
+  // With a long reach they overlap so much that the frame costs less.
+  return pixels > wantedKinds.pixels() ? wholeFrame(width, height) : boxes;
 }
 
 bool isScattered(const LabelBox& box) {

@@ -37,8 +37,9 @@ inline constexpr Parameter toneParameters[] = {
         "do not reach; its radiance is the JSON's, or scene.world."),
     number<&ToneParams::emission>(
         "emission", 0, 100, "",
-        "How much of what surfaces give off themselves (the frame's Emission pass) lifts their "
-        "tone; at 1 a surface that shines as a white one does in full light is as bright."),
+        "How much of what surfaces give off themselves (the frame's Emission pass, where it has "
+        "one) lifts their tone; at 1 a surface that shines as a white one does in full light is as "
+        "bright."),
 };
 inline constexpr ParameterTable toneTable{
     "tone", "Levels and gamma between the tone and the strip's rows.", "ours", toneParameters};

@@ -77,6 +77,7 @@ TEST(NearestSite, BoxesWithinAReachFindWhatLiesInIt) {
     }
   EXPECT_GT(within, 300);
   EXPECT_EQ(near.squared(250, 60), 77u) << "what is far from all wanted pixels is not looked at";
+  EXPECT_EQ(boxesWithin(wanted, 1, 500.0f).size(), 1u) << "the frame, for boxes would overlap";
   EXPECT_TRUE(boxesWithin(Bytes(50, 40, uint8_t{0}), 1, 6.0f).empty());
 }
 

@@ -1,0 +1,119 @@
+#include <algorithm>
+
+#include "compositor/sweep_frame.h"
+
+namespace kagefude {
+namespace {
+
+/// A floor seen from above whose left half is in shadow, under a lamp with masks and a depth map.
+struct DoubtedMap : ::testing::Test {
+  static constexpr int width = 32, height = 24;
+
+  DoubtedMap() {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        frame.setVector("Position", x, y, {(float(x) - 15.5f) / 8, (11.5f - float(y)) / 8, 0});
+    nlohmann::json light = testing::lightJson("Key", "point", {0, 0, 9}, {0, 0, -1}, 100);
+    light["radius"] = 0.5;
+    light["axes"] = {{"u", {1, 0, 0}}, {"v", {0, 1, 0}}};
+    nlohmann::json lightFromWorld = testing::identityRows();
+    lightFromWorld[2][3] = -9;
+    light["depth_map"] = {
+        {"file", "depth.exr"},
+        {"channel", "Z"},
+        {"resolution", {64, 64}},
+        {"projection", "perspective"},
+        {"light_from_world", lightFromWorld},
+        {"clip_from_light", {{4, 0, 0, 0}, {0, 4, 0, 0}, {0, 0, -1, -0.2}, {0, 0, -1, 0}}}};
+    frame.sidecar["lights"].push_back(light);
+    writeMap(true);
+  }
+
+  /// The map of a card over the left half, or, as of another light, over the right one.
+  void writeMap(bool left) const {
+    Floats depth(64, 64, 1e10f);
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 64; ++x)
+        if ((x < 32) == left) depth(x, y) = 7.0f;
+    OutputImage image;
+    image.dataWindow = image.displayWindow = {0, 0, 64, 64};
+    image.channels = {floatChannel("Z", PixelType::single, depth)};
+    writeExr(frame.folder / "depth.exr", image);
+  }
+
+  /// Masks of the card at those places of the lamp, in its radii: the shadow's edge moves by a
+  /// pixel.
+  void addMasks(const std::string& arrangement, const std::vector<V2f>& places) {
+    nlohmann::json samples = nlohmann::json::array();
+    for (size_t k = 0; k < places.size(); ++k) {
+      const std::string layer = "mask.Key." + std::to_string(k);
+      Floats& plane = frame.plane(layer + ".V", 1.0f);
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+          if (float(x) + 0.5f < 16 - places[k].x) plane(x, y) = 0;
+      samples.push_back({{"layer", "ViewLayer." + layer},
+                         {"uv", {places[k].x, places[k].y}},
+                         {"position", {0, 0, 9}}});
+    }
+    frame.sidecar["lights"][0]["masks"] = {
+        {"arrangement", arrangement}, {"offset", 0.5}, {"samples", samples}};
+  }
+  void addPair() { addMasks("pair", {{1, 0}, {-1, 0}}); }
+  void addDisc() { addMasks("disc", {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}}); }
+
+  /// What is said of the map.
+  static std::string doubtIn(const FrameResult& result) {
+    for (const std::string& warning : result.warnings)
+      if (warning.find("does not fit its masks") != std::string::npos) return warning;
+    return "";
+  }
+  static bool sameTone(const FrameResult& a, const FrameResult& b) {
+    for (int y = 0; y < height; ++y)
+      if (!std::equal(a.colour.x.row(y), a.colour.x.row(y) + width, b.colour.x.row(y)))
+        return false;
+    return true;
+  }
+
+  testing::TestFrame frame{width, height};
+};
+
+TEST_F(DoubtedMap, OneThatFitsIsUsedWithoutAWord) {
+  addPair();
+  const FrameResult result = frame.comp("");
+  EXPECT_EQ(doubtIn(result), "");
+  EXPECT_FALSE(sameTone(result, frame.comp("shadow.method = \"pair\"\n")));
+}
+
+TEST_F(DoubtedMap, APairIsSearchedByItself) {
+  addPair();
+  writeMap(false);
+  const FrameResult result = frame.comp("");
+  EXPECT_NE(doubtIn(result).find("set aside"), std::string::npos);
+  EXPECT_TRUE(sameTone(result, frame.comp("shadow.method = \"pair\"\n")));
+  EXPECT_TRUE(sameTone(frame.comp("smooth.h = 9\n"),
+                       frame.comp("shadow.method = \"pair\"\nsmooth.h = 9\n")))
+      << "smoothed as a pair is";
+}
+
+TEST_F(DoubtedMap, AskedForByNameItIsUsedAndSaid) {
+  addPair();
+  writeMap(false);
+  const FrameResult result = frame.comp("shadow.method = \"pair_depth\"\n");
+  EXPECT_NE(doubtIn(result).find("used all the same"), std::string::npos);
+  EXPECT_NE(doubtIn(result).find("pair_depth"), std::string::npos);
+  EXPECT_FALSE(sameTone(result, frame.comp("shadow.method = \"pair\"\n")));
+}
+
+TEST_F(DoubtedMap, ADiscOfMasksDoesWithoutIt) {
+  addDisc();
+  const FrameResult alone = frame.comp("light_shape.depth_map = false\n");
+  writeMap(false);
+  for (const char* look : {"", "shadow.method = \"disc\"\n"}) {
+    const FrameResult result = frame.comp(look);
+    EXPECT_NE(doubtIn(result).find("set aside"), std::string::npos) << look;
+    EXPECT_TRUE(sameTone(result, alone)) << look;
+  }
+}
+
+}  // namespace
+}  // namespace kagefude
