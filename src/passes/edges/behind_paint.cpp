@@ -16,8 +16,7 @@ class Backdrop {
       : picture_(picture), ranks_(ranks) {}
 
   Rgba at(int x, int y) const {
-    return Rgba{picture_.r(x, y), picture_.g(x, y), picture_.b(x, y),
-                picture_.a.empty() ? 1.0f : picture_.a(x, y)};
+    return Rgba{picture_.r(x, y), picture_.g(x, y), picture_.b(x, y), alpha(x, y)};
   }
 
   /// Share of the pixel that painted things cover, 0..1.
@@ -30,15 +29,17 @@ class Backdrop {
     return std::min(sum, 1.0f);
   }
 
-  /// What is seen beside the things that cover part of the pixel.
-  Rgba beside(int x, int y) const {
-    Rgba mean;
-    if (openMean(x, y, 1, mean) || openMean(x, y, 2, mean)) return mean;
-    return unmixed(x, y);
+  /// What is seen beside the things that cover the share `covered`, below 1, of the pixel.
+  Rgba beside(int x, int y, float covered) const {
+    Rgba behind;
+    if (!openMean(x, y, 1, behind) && !openMean(x, y, 2, behind)) behind = unmixed(x, y);
+    const float known = (alpha(x, y) - covered) / (1.0f - covered);
+    return known < behind[3] ? behind * (std::max(known, 0.0f) / behind[3]) : behind;
   }
 
  private:
   bool contains(int x, int y) const { return picture_.r.contains(x, y); }
+  float alpha(int x, int y) const { return picture_.a.empty() ? 1.0f : picture_.a(x, y); }
 
   /// Mean of the pixels without painted things within `radius`; false when there is none.
   bool openMean(int x, int y, int radius, Rgba& mean) const {
@@ -96,7 +97,7 @@ Rgba behindPaint(const Backdrop& backdrop, float alpha, int x, int y) {
   const float covered = backdrop.covered(x, y);
   if (covered <= 0.0f || covered >= 1.0f) return picture * (1.0f - alpha);
   const float gaps = std::max(covered - alpha, 0.0f);
-  return backdrop.beside(x, y) * (1.0f - covered) + picture * gaps;
+  return backdrop.beside(x, y, covered) * (1.0f - covered) + picture * gaps;
 }
 
 /// What paint leaves open at each pixel; false where it leaves nothing.

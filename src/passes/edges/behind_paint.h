@@ -54,7 +54,8 @@ void layOver(const PaintViews& paint, const PaintGround& ground);
 /// two fingers, the picture is unmixed: of the 5x5 the two colours, of the things and of what is
 /// behind, whose mixture by coverage is nearest (least squares), the latter never more than would
 /// leave the things of any of these pixels less than no light. Where coverage does not tell them
-/// apart, as inside a half-transparent thing, the picture stands for both. What the paint itself
+/// apart, as inside a half-transparent thing, the picture stands for both. Of what is found so no
+/// more is shown than the picture's alpha leaves beside the things. What the paint itself
 /// leaves open within a thing, c - alpha, shows the picture as it is, and so does a pixel of a
 /// thing that found no paint.
 ///

@@ -111,6 +111,33 @@ TEST(BehindPaint, InsideAHalfTransparentThingThePictureStandsForBoth) {
   EXPECT_FLOAT_EQ(veil.paintA(7, 7), 1.0f);
 }
 
+TEST(BehindPaint, OnATransparentFilmAHalfTransparentThingHasNothingBehind) {
+  Silhouette veil([](int, int) { return 0.5f; });
+  veil.sky = [](int, int) { return 0.0f; };
+  veil.skyAlpha = 0.0f;
+  veil.lay();
+  EXPECT_LT(veil.worst(), 1e-6f);
+}
+
+// The film shows at the edge alone; the pixels beside it show something that is not painted.
+TEST(BehindPaint, NeverAddsMoreThanThePicturesAlpha) {
+  Silhouette edge([](int x, int) { return x < 7 ? 1.0f : x == 7 ? 0.25f : 0.0f; });
+  edge.lay();
+  Floats alpha(side, side, 1.0f), r(side, side), g(side, side), b(side, side), a(side, side);
+  for (int y = 0; y < side; ++y) {
+    alpha(7, y) = 0.625f;
+    for (int x = 0; x < side; ++x) {
+      a(x, y) = edge.coverage(x, y);
+      r(x, y) = a(x, y) * paintRed;
+    }
+  }
+  const CoverageRank ranks[] = {{edge.id, edge.coverage}};
+  layOverPicture({r.view(), g.view(), b.view(), a.view()}, {edge.r, edge.g, edge.b, alpha}, ranks);
+  EXPECT_FLOAT_EQ(a(7, 7), 0.625f);
+  EXPECT_FLOAT_EQ(r(7, 7), 0.25f * paintRed + 0.75f * 0.5f * 0.25f) << "half of 0.75 is sky";
+  EXPECT_FLOAT_EQ(a(8, 7), 1.0f);
+}
+
 TEST(BehindPaint, GapsOfThePaintShowTheRenderedThing) {
   const CoverageRank* none = nullptr;
   Silhouette whole([](int, int) { return 1.0f; });
