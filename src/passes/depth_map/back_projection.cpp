@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <list>
 #include <vector>
 
@@ -19,18 +20,32 @@ int coarsestStep(size_t pixels) {
   return pixels > size_t{1} << 22 ? 8 : (pixels > size_t{1} << 18 ? 4 : 1);
 }
 
+/// 1 for each pixel of a row that wants an answer, else 0.
+void markWanted(const Receivers& in, int y, uint8_t* wants) {
+  const uint32_t* const labels = in.labels.row(y);
+  const uint8_t* const wanted = in.wanted.empty() ? nullptr : in.wanted.row(y);
+  for (int x = 0; x < in.labels.width; ++x)
+    wants[x] = (labels[x] != 0) & (wanted ? wanted[x] != 0 : true);
+}
+
+/// The first byte from `at` on that is not 0, or `end`. Most of a row is not asked for: eight at a
+/// time.
+const uint8_t* nextMarked(const uint8_t* at, const uint8_t* end) {
+  for (uint64_t eight; end - at >= 8; at += 8) {
+    std::memcpy(&eight, at, 8);
+    if (eight != 0) break;
+  }
+  return std::find_if(at, end, [](uint8_t mark) { return mark != 0; });
+}
+
 /// Squares of 2, 4 and 8 pixels in which a pixel wants an answer.
 class WantedCells {
  public:
   WantedCells(const Receivers& in, int coarsest) {
     if (coarsest < 2) return;
     levels_.reserve(static_cast<size_t>(std::countr_zero(unsigned(coarsest))));
-    levels_.push_back(joined(in.labels.width, in.labels.height, [&](int y, uint8_t* wants) {
-      const uint32_t* const labels = in.labels.row(y);
-      const uint8_t* const wanted = in.wanted.empty() ? nullptr : in.wanted.row(y);
-      for (int x = 0; x < in.labels.width; ++x)
-        wants[x] = (labels[x] != 0) & (wanted ? wanted[x] != 0 : true);
-    }));
+    levels_.push_back(joined(in.labels.width, in.labels.height,
+                             [&](int y, uint8_t* wants) { markWanted(in, y, wants); }));
     for (int side = 4; side <= coarsest; side *= 2)
       levels_.push_back(joined(levels_.back().width(), levels_.back().height(),
                                [&finer = levels_.back()](int y, uint8_t* wants) {
@@ -163,14 +178,20 @@ BackProjection backProject(Vec3View position, Vec3View normal, View<const uint32
     grids.emplace_back(projector, in, cells, step, grids.empty() ? nullptr : &grids.back());
   BackProjection result{Floats(width, height), Bytes(width, height)};
   parallelRows(height, [&](int y0, int y1) {
-    for (int y = y0; y < y1; ++y)
-      for (int x = 0; x < width; ++x) {
-        const PixelAnswer answer = !in.wants(x, y)  ? PixelAnswer{}
-                                   : !grids.empty() ? grids.back().at(x, y)
-                                                    : projector.at(in, x, y);
+    std::vector<uint8_t> asked(static_cast<size_t>(width));
+    for (int y = y0; y < y1; ++y) {
+      markWanted(in, y, asked.data());
+      std::fill_n(result.visibility.row(y), width, 1.0f);
+      std::fill_n(result.contradicted.row(y), width, uint8_t{0});
+      const uint8_t* const end = asked.data() + width;
+      for (const uint8_t* at = nextMarked(asked.data(), end); at != end;
+           at = nextMarked(at + 1, end)) {
+        const auto x = static_cast<int>(at - asked.data());
+        const PixelAnswer answer = grids.empty() ? projector.at(in, x, y) : grids.back().at(x, y);
         result.visibility(x, y) = answer.visibility;
         result.contradicted(x, y) = answer.contradicted;
       }
+    }
   });
   return result;
 }

@@ -17,10 +17,6 @@ struct Receivers {
   Vec3View position, normal;
   View<const uint32_t> labels;
   View<const uint8_t> wanted;
-
-  bool wants(int x, int y) const {
-    return labels(x, y) != 0 && (wanted.empty() || wanted(x, y) != 0);
-  }
 };
 
 /// Of one pixel, as BackProjection's planes.
