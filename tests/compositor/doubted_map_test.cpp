@@ -16,15 +16,7 @@ struct DoubtedMap : ::testing::Test {
     nlohmann::json light = testing::lightJson("Key", "point", {0, 0, 9}, {0, 0, -1}, 100);
     light["radius"] = 0.5;
     light["axes"] = {{"u", {1, 0, 0}}, {"v", {0, 1, 0}}};
-    nlohmann::json lightFromWorld = testing::identityRows();
-    lightFromWorld[2][3] = -9;
-    light["depth_map"] = {
-        {"file", "depth.exr"},
-        {"channel", "Z"},
-        {"resolution", {64, 64}},
-        {"projection", "perspective"},
-        {"light_from_world", lightFromWorld},
-        {"clip_from_light", {{4, 0, 0, 0}, {0, 4, 0, 0}, {0, 0, -1, -0.2}, {0, 0, -1, 0}}}};
+    light["depth_map"] = testing::depthMapJson({0, 0, 9}, 64, 4);
     frame.sidecar["lights"].push_back(light);
     writeMap(true);
   }
@@ -35,10 +27,7 @@ struct DoubtedMap : ::testing::Test {
     for (int y = 0; y < 64; ++y)
       for (int x = 0; x < 64; ++x)
         if ((x < 32) == left) depth(x, y) = 7.0f;
-    OutputImage image;
-    image.dataWindow = image.displayWindow = {0, 0, 64, 64};
-    image.channels = {floatChannel("Z", PixelType::single, depth)};
-    writeExr(frame.folder / "depth.exr", image);
+    frame.writeDepthMap("depth.exr", depth);
   }
 
   /// Masks of the card at those places of the lamp, in its radii: the shadow's edge moves by a

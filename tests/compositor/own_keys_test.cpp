@@ -107,10 +107,7 @@ class OwnKeys : public ::testing::Test {
     Floats depth(8, 8, 1e10f);
     for (int y = 0; y < 8; ++y)
       for (int x = first; x < first + 3; ++x) depth(x, y) = 2.0f;
-    OutputImage image;
-    image.dataWindow = image.displayWindow = {0, 0, 8, 8};
-    image.channels = {floatChannel("Z", PixelType::single, depth)};
-    writeExr(frame.folder / name, image);
+    frame.writeDepthMap(name, depth);
   }
 
   /// The frame, its preview and a JPEG of it as they are written.

@@ -62,25 +62,14 @@ class SweepFrame {
     Floats depth(16, 16, 1e10f);
     for (int y = 4; y < 12; ++y)
       for (int x = 4; x < 12; ++x) depth(x, y) = x < 9 ? 5.0f : 7.5f;
-    OutputImage image;
-    image.dataWindow = image.displayWindow = {0, 0, 16, 16};
-    image.channels = {floatChannel("Z", PixelType::single, depth)};
-    writeExr(frame.folder / "depth.exr", image);
+    frame.writeDepthMap("depth.exr", depth);
   }
 
   void addLight(const std::string& name, const V3f& position, int shift) {
     nlohmann::json light = lightJson(name, "point", position, {0, 0, -1}, 100);
     light["radius"] = 0.5;
     light["axes"] = {{"u", {1, 0, 0}}, {"v", {0, 1, 0}}};
-    nlohmann::json lightFromWorld = identityRows();
-    for (int k = 0; k < 3; ++k) lightFromWorld[k][3] = -position[k];
-    light["depth_map"] = {
-        {"file", "depth.exr"},
-        {"channel", "Z"},
-        {"resolution", {16, 16}},
-        {"projection", "perspective"},
-        {"light_from_world", lightFromWorld},
-        {"clip_from_light", {{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, -1, -0.2}, {0, 0, -1, 0}}}};
+    light["depth_map"] = depthMapJson(position, 16, 2);
     frame.sidecar["lights"].push_back(light);
     mask(name, frame.sidecar["lights"].back(), "disc", 9, shift);
   }

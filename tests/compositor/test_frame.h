@@ -39,6 +39,20 @@ inline nlohmann::json lightJson(const std::string& name, const std::string& type
   return light;
 }
 
+/// A depth map of `size` x `size` pixels in depth.exr, seen from `position` along -z; half of its
+/// field is 1 wide at the distance `focal`.
+inline nlohmann::json depthMapJson(const V3f& position, int size, double focal) {
+  nlohmann::json lightFromWorld = identityRows();
+  for (int k = 0; k < 3; ++k) lightFromWorld[k][3] = -position[k];
+  return {{"file", "depth.exr"},
+          {"channel", "Z"},
+          {"resolution", {size, size}},
+          {"projection", "perspective"},
+          {"light_from_world", lightFromWorld},
+          {"clip_from_light",
+           {{focal, 0, 0, 0}, {0, focal, 0, 0}, {0, 0, -1, -0.2}, {0, 0, -1, 0}}}};
+}
+
 /// A frame of a few pixels, as a renderer and the exporter would leave it: an EXR and its JSON.
 /// Every pixel shows object 1, `Thing`, at the origin, until a test says otherwise.
 class TestFrame {
@@ -83,6 +97,13 @@ class TestFrame {
                                   {"world_from_object", identityRows()},
                                   {"bounds", {{"min", pointOf(low)}, {"max", pointOf(high)}}},
                                   {"reference_point", {0, 0, 0}}});
+  }
+
+  void writeDepthMap(const std::string& name, const Floats& depth) const {
+    OutputImage image;
+    image.dataWindow = image.displayWindow = {0, 0, depth.width(), depth.height()};
+    image.channels = {floatChannel("Z", PixelType::single, depth)};
+    writeExr(folder / name, image);
   }
 
   std::filesystem::path write() const {

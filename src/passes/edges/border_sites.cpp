@@ -11,38 +11,14 @@
 namespace kagefude {
 namespace {
 
-constexpr int borderWindow = 3;
-constexpr float borderSigma = 1.3f;
 /// Neighbours along the border over which a site is evened.
 constexpr int evenedOver = 2;
-
-std::vector<float> borderWeights() {
-  std::vector<float> weights;
-  for (int dy = -borderWindow; dy <= borderWindow; ++dy)
-    for (int dx = -borderWindow; dx <= borderWindow; ++dx)
-      weights.push_back(exp2Of(-0.72134752f * static_cast<float>(dx * dx + dy * dy) /
-                               (borderSigma * borderSigma)));
-  return weights;
-}
-
-/// What the share of a side in the window changes by a pixel, over its gradient: from a straight
-/// border along the pixels, which lies half a pixel from their centres.
-float slopeOfGradient(const std::vector<float>& weights) {
-  float middle = 0, gradient = 0;
-  const float* weight = weights.data();
-  for (int dy = -borderWindow; dy <= borderWindow; ++dy)
-    for (int dx = -borderWindow; dx <= borderWindow; ++dx, ++weight) {
-      if (dx == 0) middle += *weight;
-      if (dx <= 0) gradient -= *weight * static_cast<float>(dx);
-    }
-  return middle / gradient;
-}
 
 }  // namespace
 
 BorderSites::BorderSites(const EdgePaint& in, const EdgeBorders& borders, View<const uint8_t> at,
                          View<uint32_t> squared)
-    : in_(in), borders_(borders), at_(at), squared_(squared), window_(borderWeights()) {
+    : in_(in), borders_(borders), at_(at), squared_(squared) {
   std::vector<size_t> starts(static_cast<size_t>(at.height) + 1, 0);
   for (int y = 0; y < at.height; ++y)
     starts[static_cast<size_t>(y) + 1] =
@@ -104,24 +80,14 @@ BorderSite BorderSites::siteAt(int x, int y) const {
 void BorderSites::placeBorder(BorderSite& site) const {
   const uint16_t own = in_.things(site.own.x, site.own.y);
   const int x = site.own.x, y = site.own.y;
-  float sum = 0, held = 0, toX = 0, toY = 0;
-  const float* weight = window_.data();
-  for (int dy = -borderWindow; dy <= borderWindow; ++dy)
-    for (int dx = -borderWindow; dx <= borderWindow; ++dx, ++weight) {
-      // Beyond the frame things go on as they are at its border.
-      const int qx = std::clamp(x + dx, 0, in_.things.width - 1);
-      const int qy = std::clamp(y + dy, 0, in_.things.height - 1);
-      sum += *weight;
-      if (in_.things(qx, qy) != own) continue;
-      held += *weight;
-      toX -= *weight * static_cast<float>(dx);
-      toY -= *weight * static_cast<float>(dy);
-    }
-  const float length = std::sqrt(toX * toX + toY * toY);
-  const bool known = length > 1e-4f * sum;
+  const EdgeWindow::Side seen =
+      window_.sideOf(x, y, in_.things.width, in_.things.height,
+                     [&](int qx, int qy, int, int) { return in_.things(qx, qy) == own; });
+  const float length = std::sqrt(seen.towardsX * seen.towardsX + seen.towardsY * seen.towardsY);
+  const bool known = length > 1e-4f * seen.sum;
   if (known) {
-    site.outX = toX / length;
-    site.outY = toY / length;
+    site.outX = -seen.towardsX / length;
+    site.outY = -seen.towardsY / length;
   }
   float most = -2.0f;
   int side = 0;
@@ -147,8 +113,8 @@ void BorderSites::placeBorder(BorderSite& site) const {
     site.x += way * stepX;
     site.y += way * stepY;
   } else if (known) {
-    const float slope = length / sum * slopeOfGradient(window_);
-    const float way = std::clamp((held / sum - 0.5f) / slope, 0.0f, 1.0f);
+    const float slope = length / seen.sum * window_.slopeOfGradient();
+    const float way = std::clamp((seen.own / seen.sum - 0.5f) / slope, 0.0f, 1.0f);
     site.x += way * site.outX;
     site.y += way * site.outY;
   } else {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "passes/edges/edge_border.h"
+#include "passes/edges/edge_window.h"
 #include "passes/strip/strip.h"
 
 namespace kagefude {
@@ -53,7 +54,7 @@ class BorderSites {
   const EdgeBorders& borders_;
   View<const uint8_t> at_;
   View<uint32_t> squared_;
-  std::vector<float> window_;
+  EdgeWindow window_;
   std::vector<BorderSite> sites_;
 };
 

@@ -2,17 +2,12 @@
 
 #include <algorithm>
 
-#include "image/parallel.h"
-#include "passes/strip/strip.h"
+#include "passes/edges/mix_at_edges.h"
 
 namespace kagefude {
 namespace {
 
 constexpr float fullShare = 1.0f - smallestShare;
-
-Rgba colourAt(const ColourViews& c, int x, int y) {
-  return Rgba{c.r(x, y), c.g(x, y), c.b(x, y), c.a(x, y)};
-}
 
 // Mean colour of the pixels of `id` within `radius`; false when there is none.
 bool lentColour(const ColourViews& colour, View<const uint32_t> ownId, int x, int y, uint32_t id,
@@ -56,39 +51,17 @@ Rgba blended(const ColourViews& colour, View<const uint32_t> ownId,
   return sum * ((named < 1.0f ? named : 1.0f) / found);
 }
 
-void copyRow(View<const float> from, int y, Floats& to) {
-  std::copy_n(from.row(y), from.width, to.row(y));
-}
-
 }  // namespace
 
 ColourPlanes blendByCoverage(const ColourViews& colour, View<const uint32_t> ownId,
                              std::span<const CoverageRank> ranks) {
-  const int width = ownId.width, height = ownId.height;
-  ColourPlanes result{Floats(width, height), Floats(width, height), Floats(width, height),
-                      Floats(width, height)};
-  parallelRows(height, [&](int first, int end) {
-    for (int y = first; y < end; ++y) {
-      // Most pixels show one thing and stay as they are.
-      copyRow(colour.r, y, result.r);
-      copyRow(colour.g, y, result.g);
-      copyRow(colour.b, y, result.b);
-      copyRow(colour.a, y, result.a);
-      if (ranks.empty()) continue;
-      const uint32_t* const own = ownId.row(y);
-      const uint32_t* const id = ranks[0].id.row(y);
-      const float* const share = ranks[0].coverage.row(y);
-      for (int x = 0; x < width; ++x) {
-        if (share[x] >= fullShare && id[x] == own[x]) continue;
-        const Rgba c = blended(colour, ownId, ranks, x, y);
-        result.r(x, y) = c[0];
-        result.g(x, y) = c[1];
-        result.b(x, y) = c[2];
-        result.a(x, y) = c[3];
-      }
-    }
-  });
-  return result;
+  return mixAtEdges(
+      colour,
+      [&](int x, int y) {
+        return ranks.empty() ||
+               (ranks[0].coverage(x, y) >= fullShare && ranks[0].id(x, y) == ownId(x, y));
+      },
+      [&](int x, int y) { return blended(colour, ownId, ranks, x, y); });
 }
 
 }  // namespace kagefude

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "image/parallel.h"
-#include "passes/strip/strip.h"
+#include "passes/edges/mix_at_edges.h"
 
 namespace kagefude {
 namespace {
@@ -148,9 +147,7 @@ class Mixer {
   }
 
  private:
-  Rgba at(int x, int y) const {
-    return Rgba{colour_.r(x, y), colour_.g(x, y), colour_.b(x, y), colour_.a(x, y)};
-  }
+  Rgba at(int x, int y) const { return colourAt(colour_, x, y); }
 
   bool contains(int x, int y) const { return e_.ownId.contains(x, y); }
 
@@ -272,34 +269,13 @@ class Mixer {
   const InnerEdges inner_;
 };
 
-void takeRow(View<const float> from, int y, Floats& to) {
-  std::copy_n(from.row(y), from.width, to.row(y));
-}
-
 }  // namespace
 
 ColourPlanes blendByMeanNormals(const ColourViews& colour, const MeanNormalEdges& edges) {
-  const int width = edges.ownId.width, height = edges.ownId.height;
-  ColourPlanes result{Floats(width, height), Floats(width, height), Floats(width, height),
-                      Floats(width, height)};
   const Mixer mixer(colour, edges);
-  parallelRows(height, [&](int first, int end) {
-    for (int y = first; y < end; ++y) {
-      takeRow(colour.r, y, result.r);
-      takeRow(colour.g, y, result.g);
-      takeRow(colour.b, y, result.b);
-      takeRow(colour.a, y, result.a);
-      for (int x = 0; x < width; ++x) {
-        if (mixer.plain(x, y)) continue;
-        const Rgba mixed = mixer.mixed(x, y);
-        result.r(x, y) = mixed[0];
-        result.g(x, y) = mixed[1];
-        result.b(x, y) = mixed[2];
-        result.a(x, y) = mixed[3];
-      }
-    }
-  });
-  return result;
+  return mixAtEdges(
+      colour, [&](int x, int y) { return mixer.plain(x, y); },
+      [&](int x, int y) { return mixer.mixed(x, y); });
 }
 
 }  // namespace kagefude

@@ -1,18 +1,15 @@
 #include "passes/edges/outline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "image/parallel.h"
-#include "image/real_math.h"
+#include "passes/edges/edge_window.h"
 
 namespace kagefude {
 namespace {
 
-constexpr int windowRadius = 3;
-constexpr float windowSigma = 1.3f;
 constexpr float pieceHalfLength = 0.75f;
 constexpr float longestShift = 1.0f;
 
@@ -91,45 +88,25 @@ bool besideALine(const Input& in, int x, int y) {
   return false;
 }
 
-using Window = std::array<float, (2 * windowRadius + 1) * (2 * windowRadius + 1)>;
-
-Window gaussianWindow() {
-  Window window{};
-  for (int dy = -windowRadius; dy <= windowRadius; ++dy)
-    for (int dx = -windowRadius; dx <= windowRadius; ++dx)
-      window[static_cast<size_t>((dy + windowRadius) * (2 * windowRadius + 1) + dx +
-                                 windowRadius)] =
-          exp2Of(-0.72134752f * static_cast<float>(dx * dx + dy * dy) /
-                 (windowSigma * windowSigma));
-  return window;
-}
-
 // Smoothed boundary near (x, y): where the share of the pixel's own side falls to one half.
-Piece pieceAt(const Input& in, const Window& window, int x, int y) {
-  float sum = 0, own = 0, gradientX = 0, gradientY = 0;
+Piece pieceAt(const Input& in, const EdgeWindow& window, int x, int y) {
   Piece piece{static_cast<float>(x), static_cast<float>(y), 1, 0, depthAt(in, x, y), in.ids(x, y)};
-  const float* weight = window.data();
-  for (int dy = -windowRadius; dy <= windowRadius; ++dy)
-    for (int dx = -windowRadius; dx <= windowRadius; ++dx, ++weight) {
-      // Beyond the picture's border things go on as they are at the border.
-      const int qx = std::clamp(x + dx, 0, in.ids.width - 1);
-      const int qy = std::clamp(y + dy, 0, in.ids.height - 1);
-      sum += *weight;
-      if (sameSide(in, x, y, qx, qy)) {
-        own += *weight;
-        gradientX += *weight * static_cast<float>(dx);
-        gradientY += *weight * static_cast<float>(dy);
-      } else if (std::abs(dx) + std::abs(dy) == 1 && depthAt(in, qx, qy) < piece.depth) {
-        piece.depth = depthAt(in, qx, qy);
-        piece.owner = in.ids(qx, qy);
-      }
-    }
-  const float length = std::sqrt(gradientX * gradientX + gradientY * gradientY);
-  if (!(length > 1e-6f * sum)) return piece;
-  const float slope = length / (windowSigma * windowSigma * sum);
-  const float shift = std::clamp((own / sum - 0.5f) / slope, 0.0f, longestShift);
-  piece.normalX = gradientX / length;
-  piece.normalY = gradientY / length;
+  const EdgeWindow::Side seen =
+      window.sideOf(x, y, in.ids.width, in.ids.height, [&](int qx, int qy, int dx, int dy) {
+        if (sameSide(in, x, y, qx, qy)) return true;
+        if (std::abs(dx) + std::abs(dy) == 1 && depthAt(in, qx, qy) < piece.depth) {
+          piece.depth = depthAt(in, qx, qy);
+          piece.owner = in.ids(qx, qy);
+        }
+        return false;
+      });
+  const float length = std::sqrt(seen.towardsX * seen.towardsX + seen.towardsY * seen.towardsY);
+  if (!(length > 1e-6f * seen.sum)) return piece;
+  constexpr float variance = EdgeWindow::sigma * EdgeWindow::sigma;
+  const float slope = length / (variance * seen.sum);
+  const float shift = std::clamp((seen.own / seen.sum - 0.5f) / slope, 0.0f, longestShift);
+  piece.normalX = seen.towardsX / length;
+  piece.normalY = seen.towardsY / length;
   piece.x -= piece.normalX * shift;
   piece.y -= piece.normalY * shift;
   return piece;
@@ -171,7 +148,7 @@ void drawPiece(const Piece& piece, float width, int first, int end, OutlineResul
 
 std::vector<std::vector<Piece>> findPieces(const Input& in) {
   std::vector<std::vector<Piece>> rows(static_cast<size_t>(in.ids.height));
-  const Window window = gaussianWindow();
+  const EdgeWindow window;
   parallelRows(in.ids.height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
       for (int x = 0; x < in.ids.width; ++x)
