@@ -26,14 +26,16 @@ struct Comp {
 
 /// Of each style, over all frames.
 struct StylesSeen {
-  std::vector<bool> fit, paint;
+  std::vector<bool> fit, paint, outranked;
 
   void add(const FrameResult& result) {
     fit.resize(result.fittingStyles.size());
     paint.resize(fit.size());
+    outranked.resize(fit.size());
     for (size_t i = 0; i < fit.size(); ++i) {
       if (result.fittingStyles[i]) fit[i] = true;
       if (result.paintingStyles[i]) paint[i] = true;
+      if (result.outrankedStyles[i]) outranked[i] = true;
     }
   }
 };
@@ -84,18 +86,14 @@ std::string namesOf(const StyleParams& style) {
 void addIdleStyles(const Look& look, const LookUse& use, const StylesSeen& seen, LookCheck& check) {
   for (size_t i = 0; i < look.styles.size(); ++i) {
     if (!use.styles[i] || seen.paint[i]) continue;
-    const StyleParams& style = look.styles[i].style;
-    bool behind = false;
-    for (size_t k = 0; k < i; ++k)
-      if (seen.paint[k] && look.styles[k].style.priority == style.priority) behind = true;
-    const std::string name = fmt::format("style {} {}", i + 1, namesOf(style));
+    const std::string name = fmt::format("style {} {}", i + 1, namesOf(look.styles[i].style));
     if (!seen.fit[i])
       check.waiting.push_back(name + ": its things are not seen");
-    else if (behind)
+    else if (seen.outranked[i])
+      check.waiting.push_back(name + ": styles of higher priority paint all that is seen of it");
+    else
       check.problems.push_back(
           name + " paints nothing: styles of the same priority come first wherever it fits");
-    else
-      check.waiting.push_back(name + ": styles of higher priority paint all that is seen of it");
   }
 }
 

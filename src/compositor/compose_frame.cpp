@@ -56,6 +56,7 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
 
   const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
   result.fittingStyles = styled.fitting;
+  result.outrankedStyles = styled.outranked;
   result.paintingStyles.resize(look.styles.size());
   for (const int style : styled.styles)
     if (style >= 0) result.paintingStyles[static_cast<size_t>(style)] = true;

@@ -118,8 +118,10 @@ class PaperedBeauty : public PaintGround {
       if (kinds[i] == open)
         set(run, i, beauty_.r(x + i, y), beauty_.g(x + i, y), beauty_.b(x + i, y),
             beauty_.a.empty() ? 1.0f : beauty_.a(x + i, y));
-      else if (kinds[i] == between && next != row.end())
-        set(run, i, next->r, next->g, next->b, next->a), ++next;
+      else if (kinds[i] == between) {
+        set(run, i, next->r, next->g, next->b, next->a);
+        ++next;
+      }
     }
   }
 

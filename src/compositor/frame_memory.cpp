@@ -22,9 +22,10 @@ constexpr size_t ofReadingIds = 16;  // two ranks of a Cryptomatte
 constexpr size_t ofEdgeRanks = 32;   // four ranks of a Cryptomatte
 constexpr size_t ofRanks = 40;       // a Cryptomatte that is ranked anew
 
-// A ground of its own: the paint before things met, the ground and what it is made of, the tooth;
-// and of painted edges the nearest borders and distances.
-constexpr size_t ofGround = 56, ofPaintedEdges = 46;
+// A ground of its own (widest: a painted sky, tooth on the world): the paint before things met, the
+// ground and what it is made of, the tooth; and of painted edges the nearest borders and distances,
+// and what pixels at borders know, a third of all at most.
+constexpr size_t ofGround = 56, ofPaintedEdges = 46 + 38;
 constexpr size_t ofTint = 12;
 constexpr size_t ofOwnLights = 60;      // three pictures, a tone and an index
 constexpr size_t ofSmoothNormals = 28;  // and the means of one width
@@ -142,7 +143,8 @@ size_t frameMemory(const Look& look, const FramePlan& plan,
   const size_t input = inputBytes(plan);
   const size_t passed = look.output.passthrough ? input : 0;
 
-  const size_t reading = floats + masks + ids + ofReadingIds + edges;
+  // Readers other than the fast one hold masks as floats first.
+  const size_t reading = floats + 5 * masks + ids + ofReadingIds + edges;
   const auto area = static_cast<size_t>(look.output.scale) * static_cast<size_t>(look.output.scale);
   const size_t scaling = area > 1 ? ofIds + (ofResult + layers + ofIds) / area : 0;
   const size_t composing = floats + masks + ids + ofPasses + ofResult + layers + edges + tones +

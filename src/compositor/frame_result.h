@@ -25,8 +25,9 @@ struct FrameResult {
   Vec3Plane colour;
   Floats alpha;
   std::vector<NamedPlane> layers;
-  std::vector<bool> fittingStyles;   ///< each style of the look: whether it fits something seen
-  std::vector<bool> paintingStyles;  ///< and whether it paints some of it
+  std::vector<bool> fittingStyles;    ///< each style of the look: whether it fits something seen
+  std::vector<bool> paintingStyles;   ///< and whether it paints some of it
+  std::vector<bool> outrankedStyles;  ///< and whether one of higher priority paints some of it
   Labels standing;  ///< Downscale::standing of the surfaces; empty at output.scale = 1
   std::vector<std::string> warnings;
 };

@@ -14,6 +14,7 @@ void keepWhatMapsNeed(FramePlan& plan) {
                                   &plan.instanceRandom, &plan.coverage, &plan.materialId})
     aov->reset();
   plan.lines.clear();
+  plan.meanNormal.clear();
   std::erase_if(plan.lights, [](const FrameLight& light) { return !light.readsDepthMap; });
 }
 

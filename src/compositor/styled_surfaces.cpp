@@ -3,65 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <set>
-#include <unordered_map>
 
 #include "base/error.h"
 #include "base/glob.h"
 #include "base/nearest_name.h"
 #include "compositor/own_lights.h"
 #include "compositor/stroke_grounds.h"
+#include "compositor/surface_index.h"
 #include "image/real_math.h"
 
 namespace kagefude {
 namespace {
-
-struct Surface {
-  uint32_t object = 0;
-  uint32_t material = 0;
-
-  bool operator==(const Surface&) const = default;
-};
-struct SurfaceHash {
-  size_t operator()(const Surface& s) const {
-    return std::hash<uint64_t>()(static_cast<uint64_t>(s.object) << 32 | s.material);
-  }
-};
-
-/// The seen surfaces in reading order, and the plane of their numbers, from 1.
-struct SurfaceIndex {
-  Plane<uint16_t> plane;
-  std::vector<Surface> surfaces;
-};
-
-SurfaceIndex indexSurfaces(const FramePlanes& frame) {
-  constexpr size_t mostSurfaces = 65535;
-  SurfaceIndex result{Plane<uint16_t>(frame.width, frame.height), {}};
-  std::unordered_map<Surface, uint16_t, SurfaceHash> numbers;
-  Surface last;
-  uint16_t lastNumber = 0;
-  const bool materials = !frame.materialId.empty();
-  for (int y = 0; y < frame.height; ++y)
-    for (int x = 0; x < frame.width; ++x) {
-      const uint32_t object = frame.objectId(x, y);
-      const Surface surface{object, object && materials ? frame.materialId(x, y) : 0};
-      if (!(surface == last)) {
-        last = surface;
-        lastNumber = 0;
-        if (object) {
-          const auto [found, isNew] =
-              numbers.try_emplace(surface, static_cast<uint16_t>(numbers.size() + 1));
-          if (isNew) result.surfaces.push_back(surface);
-          if (result.surfaces.size() > mostSurfaces)
-            throw InputError(fmt::format("the frame shows more than {} objects", mostSurfaces));
-          lastNumber = found->second;
-        }
-      }
-      result.plane(x, y) = lastNumber;
-    }
-  return result;
-}
 
 /// Whether a name fits, whole or without the library that tells it from others: Body [cast.blend].
 bool fits(const std::string& name, const std::vector<std::string>& patterns) {
@@ -282,6 +235,24 @@ PaintedEdgeParams edgesOf(PaintedEdgeParams edges, float stripPixels, float want
   return edges;
 }
 
+/// Of each style of the look: what StyledSurfaces says of fitting and outranked ones.
+void noteFitting(const Look& look, const FramePlan& plan, const SurfaceIndex& index,
+                 StyledSurfaces& styled) {
+  styled.fitting.resize(look.styles.size());
+  styled.outranked.resize(look.styles.size());
+  for (const Surface& surface : index.surfaces) {
+    const StyleLook* const found = styleFor(look, plan, surface);
+    if (!found) continue;
+    for (size_t i = 0; i < look.styles.size(); ++i) {
+      if (styled.fitting[i] && styled.outranked[i]) continue;
+      const StyleParams& style = look.styles[i].style;
+      if (!matches(style, plan, surface)) continue;
+      styled.fitting[i] = true;
+      if (found->style.priority > style.priority) styled.outranked[i] = true;
+    }
+  }
+}
+
 }  // namespace
 
 void levelTone(const ToneFloor& floor, const StyledSurfaces& styled, View<float> tone) {
@@ -303,10 +274,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
   std::set<std::string> unbounded;
   OwnLights ownLights(look, strips, plan);
   StrokeGrounds grounds(plan, planes, index.plane, index.surfaces.size());
-  result.fitting.resize(look.styles.size());
-  for (const Surface& surface : index.surfaces)
-    for (size_t i = 0; i < look.styles.size(); ++i)
-      if (!result.fitting[i]) result.fitting[i] = matches(look.styles[i].style, plan, surface);
+  noteFitting(look, plan, index, result);
   for (size_t number = 1; number <= index.surfaces.size(); ++number) {
     const StyleLook* found = styleFor(look, plan, index.surfaces[number - 1]);
     const StyleLook& style = found ? *found : fallback;

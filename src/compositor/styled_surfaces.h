@@ -31,6 +31,7 @@ struct OwnLight {
 /// Which strokes every pixel gets: one anchor for each pair of object and style that is seen.
 struct StyledSurfaces {
   std::vector<bool> fitting;    ///< each style of the look: whether it fits a surface that is seen
+  std::vector<bool> outranked;  ///< and whether one of higher priority paints such a surface
   Plane<uint16_t> anchorIndex;  ///< 0 = background, i -> anchors[i - 1]
   std::vector<BrushAnchor> anchors;
   Vec3Plane rest;           ///< places at rest of the anchors that lie there; empty where none does

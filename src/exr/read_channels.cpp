@@ -18,6 +18,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "exr/fast_kernels.h"
 #include "exr/fast_read.h"
 #include "image/parallel.h"
 
@@ -122,8 +123,8 @@ bool readFast(const FastExr& fast, const ImageFile& file, int number,
 }
 
 void toMask(const float* values, size_t pixels, void* mask) {
-  std::transform(values, values + pixels, static_cast<uint8_t*>(mask),
-                 [](float value) { return value >= 0.5f ? uint8_t{1} : uint8_t{0}; });
+  fastestExrKernels().floatToMask(reinterpret_cast<const uint8_t*>(values), pixels,
+                                  static_cast<uint8_t*>(mask));
 }
 
 // `from` has the channel's own type, or both have the same.

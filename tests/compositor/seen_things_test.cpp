@@ -125,6 +125,15 @@ TEST(CheckLook, StylesThatWaitForOtherFramesAreNoProblem) {
             std::vector<std::string>{"style 2 (object Thi*) paints nothing: styles of the same "
                                      "priority come first wherever it fits"});
   EXPECT_TRUE(hidden.waiting.empty());
+  // What paints Thing has its priority, but what paints Other, which it fits, a higher one.
+  const LookCheck outranked =
+      checkOf(style + "\"Thing\"\n" + style +
+              "\"Other\"\n[[style]]\nstrip = \"builtin:soft\"\ntone.black = 0.3\n"
+              "object = \"Oth*\"\npriority = 1\n");
+  EXPECT_EQ(outranked.problems, std::vector<std::string>());
+  EXPECT_EQ(outranked.waiting,
+            std::vector<std::string>{
+                "style 2 (object Other): styles of higher priority paint all that is seen of it"});
 }
 
 }  // namespace

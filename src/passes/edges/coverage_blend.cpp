@@ -7,8 +7,6 @@
 namespace kagefude {
 namespace {
 
-constexpr float fullShare = 1.0f - smallestShare;
-
 // Mean colour of the pixels of `id` within `radius`; false when there is none.
 bool lentColour(const ColourViews& colour, View<const uint32_t> ownId, int x, int y, uint32_t id,
                 int radius, Rgba& result) {
@@ -20,7 +18,7 @@ bool lentColour(const ColourViews& colour, View<const uint32_t> ownId, int x, in
     const uint32_t* const ids = ownId.row(qy);
     for (int qx = left; qx <= right; ++qx)
       if (ids[qx] == id) {
-        sum += colourAt(colour, qx, qy);
+        sum += paintAt(colour, qx, qy);
         ++count;
       }
   }
@@ -38,7 +36,7 @@ Rgba blended(const ColourViews& colour, View<const uint32_t> ownId,
     const uint32_t id = rank.id(x, y);
     if (id == 0 || !(share >= smallestShare)) continue;
     named += share;
-    Rgba lent = colourAt(colour, x, y);
+    Rgba lent = paintAt(colour, x, y);
     if (id != ownId(x, y) && !lentColour(colour, ownId, x, y, id, 1, lent) &&
         !lentColour(colour, ownId, x, y, id, 2, lent))
       continue;
@@ -47,7 +45,7 @@ Rgba blended(const ColourViews& colour, View<const uint32_t> ownId,
   }
   if (!(named > 0.0f)) return Rgba{};
   // Nothing of what covers the pixel has a colour nearby: keep the pixel's own.
-  if (!(found > 0.0f)) return colourAt(colour, x, y);
+  if (!(found > 0.0f)) return paintAt(colour, x, y);
   return sum * ((named < 1.0f ? named : 1.0f) / found);
 }
 

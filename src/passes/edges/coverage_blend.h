@@ -15,6 +15,8 @@ struct CoverageRank {
 
 /// Coverage below counts as none.
 inline constexpr float smallestShare = 1.0f / 512.0f;
+/// Coverage from here on counts as all of the pixel.
+inline constexpr float fullShare = 1.0f - smallestShare;
 
 /// Scene-linear colour with associated alpha.
 struct ColourViews {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "passes/edges/coverage_blend.h"
+#include "passes/edges/behind_paint.h"
 #include "passes/strip/strip.h"
 
 namespace kagefude {
@@ -25,6 +25,17 @@ inline float paintBrightness(const Rgba& colour) {
 
 inline Rgba paintAt(const ColourViews& planes, int x, int y) {
   return Rgba{planes.r(x, y), planes.g(x, y), planes.b(x, y), planes.a(x, y)};
+}
+
+inline Rgba paintAt(const PaintViews& planes, int x, int y) {
+  return Rgba{planes.r(x, y), planes.g(x, y), planes.b(x, y), planes.a(x, y)};
+}
+
+inline void setPaint(const PaintViews& planes, int x, int y, const Rgba& colour) {
+  planes.r(x, y) = colour[0];
+  planes.g(x, y) = colour[1];
+  planes.b(x, y) = colour[2];
+  planes.a(x, y) = colour[3];
 }
 
 }  // namespace kagefude

@@ -5,7 +5,7 @@
 
 #include "image/parallel.h"
 #include "passes/edges/crease_line.h"
-#include "passes/strip/strip.h"
+#include "passes/edges/edge_tones.h"
 
 namespace kagefude {
 namespace {
@@ -18,26 +18,15 @@ struct Blended {
   Rgba colour;
 };
 
-Rgba at(const PaintViews& paint, int x, int y) {
-  return Rgba{paint.r(x, y), paint.g(x, y), paint.b(x, y), paint.a(x, y)};
-}
-
 Rgba blended(const InnerEdges& edges, const PaintViews& paint, int x, int y) {
   const std::array<double, 8> shares = edges.shares(x, y);
   double total = 0;
   for (const double share : shares) total += share;
-  Rgba sum = at(paint, x, y) * static_cast<float>(1 - total);
+  Rgba sum = paintAt(paint, x, y) * static_cast<float>(1 - total);
   for (size_t i = 0; i < shares.size(); ++i)
     if (shares[i] > 0)
-      sum += at(paint, x + edgeSteps[i].x, y + edgeSteps[i].y) * static_cast<float>(shares[i]);
+      sum += paintAt(paint, x + edgeSteps[i].x, y + edgeSteps[i].y) * static_cast<float>(shares[i]);
   return sum;
-}
-
-void set(const PaintViews& paint, const Blended& pixel) {
-  paint.r(pixel.x, pixel.y) = pixel.colour[0];
-  paint.g(pixel.x, pixel.y) = pixel.colour[1];
-  paint.b(pixel.x, pixel.y) = pixel.colour[2];
-  paint.a(pixel.x, pixel.y) = pixel.colour[3];
 }
 
 }  // namespace
@@ -159,7 +148,8 @@ void blendInnerEdges(const EdgeSurfaces& surfaces, const PaintViews& paint) {
   });
   parallelRows(height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
-      for (const Blended& pixel : rows[static_cast<size_t>(y)]) set(paint, pixel);
+      for (const Blended& pixel : rows[static_cast<size_t>(y)])
+        setPaint(paint, pixel.x, pixel.y, pixel.colour);
   });
 }
 

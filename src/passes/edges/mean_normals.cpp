@@ -10,7 +10,6 @@
 namespace kagefude {
 namespace {
 
-constexpr float wholeShare = 1.0f - smallestShare;
 /// A mean nearer to the own normal than this says nothing new.
 constexpr float sameNormal = 0.06f;
 /// How strongly shares are held to the mixture without normals, so that the noise of the mean does
@@ -115,7 +114,7 @@ class Mixer {
   /// Whether one surface covers the pixel, and is all that the mean knows of.
   bool plain(int x, int y) const {
     const CoverageRank& first = e_.ranks[0];
-    if (!(first.coverage(x, y) >= wholeShare) || first.id(x, y) != e_.ownId(x, y)) return false;
+    if (!(first.coverage(x, y) >= fullShare) || first.id(x, y) != e_.ownId(x, y)) return false;
     if (!inner_.plain(x, y)) return false;
     const V3f off = e_.mean(x, y) - e_.surfaces.normal(x, y);
     return !(off.dot(off) > sameNormal * sameNormal);
@@ -123,18 +122,18 @@ class Mixer {
 
   Rgba mixed(int x, int y) const {
     Sources sources;
-    float named = 0, found = 0;
-    for (const CoverageRank& rank : e_.ranks) {
-      const float share = rank.coverage(x, y);
-      if (rank.id(x, y) == 0 || !(share >= smallestShare) || sources.things == mostThings) continue;
-      named += share;
-      sources.ids[sources.things] = rank.id(x, y);
-      sources.coverage[sources.things] = share;
-      if (addSources(x, y, static_cast<int>(sources.things++), sources)) found += share;
-    }
+    const float named = nameThings(x, y, sources);
     if (!(named > 0.0f)) return Rgba{};
+    float found = 0;
+    bool all = true;
+    for (size_t i = 0; i < sources.things; ++i) {
+      if (addSources(x, y, static_cast<int>(i), sources))
+        found += sources.coverage[i];
+      else
+        all = false;
+    }
     if (!(found > 0.0f)) return at(x, y);
-    if (found == named && knowsRest(x, y)) {
+    if (all && knowsRest(x, y)) {
       V3f left = solve(e_.mean(x, y), sources);
       for (size_t far = 0; far < mostFar && left.dot(left) > unexplained * unexplained; ++far) {
         if (!addExplaining(x, y, left, sources)) break;
@@ -147,9 +146,28 @@ class Mixer {
   }
 
  private:
-  Rgba at(int x, int y) const { return colourAt(colour_, x, y); }
+  Rgba at(int x, int y) const { return paintAt(colour_, x, y); }
 
   bool contains(int x, int y) const { return e_.ownId.contains(x, y); }
+
+  /// Each thing once, in however many ranks a file names it; gives what they cover together.
+  float nameThings(int x, int y, Sources& sources) const {
+    float named = 0;
+    for (const CoverageRank& rank : e_.ranks) {
+      const float share = rank.coverage(x, y);
+      const uint32_t id = rank.id(x, y);
+      if (id == 0 || !(share >= smallestShare)) continue;
+      int place = sources.find(id);
+      if (place < 0) {
+        if (sources.things == mostThings) continue;
+        place = static_cast<int>(sources.things++);
+        sources.ids[static_cast<size_t>(place)] = id;
+      }
+      sources.coverage[static_cast<size_t>(place)] += share;
+      named += share;
+    }
+    return named;
+  }
 
   /// Whether the mean is of nothing but the things that are painted, and of what has no surface.
   bool knowsRest(int x, int y) const {

@@ -21,14 +21,17 @@ struct MeanNormalEdges {
 /// pixel that it crosses. Each pixel gets the mixture of its 3x3's colours whose normals have that
 /// mean and whose things have their coverage (blendByCoverage): least squares with shares of 0 and
 /// more, near the mixture that is known without it, i.e. coverage and, within a thing,
-/// blendInnerEdges. Where the normals say nothing, as at a border of materials, it is that mixture;
-/// coverage, and so alpha, is kept exactly. A thing without pixels in the 3x3 lends what
-/// it has in the 5x5, as there. Next to surfaces that are not painted, and where the mean is not
-/// finite, nothing is known of the rest of the mean, so the mixture without it stands.
+/// blendInnerEdges. Where that leaves much of the mean unexplained, up to two pixels of its things
+/// join, no more than 8 away, where dashes of the same line may lie. Where the normals say nothing,
+/// as at a border of materials, it is the mixture without them; coverage, and so alpha, is kept
+/// exactly. A thing without pixels in the 3x3 lends the mean of the nearest square up to 17x17
+/// that has some (blendByCoverage ends at 5x5). Next to surfaces that are not painted, and where
+/// the mean is not finite, nothing is known of the rest of the mean, so the mixture without it
+/// stands.
 ///
 /// colour: as it was painted for each pixel's centre. Where one surface covers a pixel and the
 /// mean is its normal, colours are taken over bit for bit. Cost: some thousand operations at a
-/// pixel of an edge.
+/// pixel of an edge, ten thousand where it looks farther away.
 ColourPlanes blendByMeanNormals(const ColourViews& colour, const MeanNormalEdges& edges);
 
 }  // namespace kagefude

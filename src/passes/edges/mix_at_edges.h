@@ -3,14 +3,9 @@
 #include <algorithm>
 
 #include "image/parallel.h"
-#include "passes/edges/coverage_blend.h"
-#include "passes/strip/strip.h"
+#include "passes/edges/edge_tones.h"
 
 namespace kagefude {
-
-inline Rgba colourAt(const ColourViews& c, int x, int y) {
-  return Rgba{c.r(x, y), c.g(x, y), c.b(x, y), c.a(x, y)};
-}
 
 /// A picture whose pixels are mixed(x, y) but where plain(x, y), as most are: those are taken over
 /// bit for bit.
@@ -19,6 +14,7 @@ ColourPlanes mixAtEdges(const ColourViews& colour, const Plain& plain, const Mix
   const int width = colour.r.width, height = colour.r.height;
   ColourPlanes result{Floats(width, height), Floats(width, height), Floats(width, height),
                       Floats(width, height)};
+  const PaintViews views{result.r.view(), result.g.view(), result.b.view(), result.a.view()};
   parallelRows(height, [&](int first, int end) {
     for (int y = first; y < end; ++y) {
       std::copy_n(colour.r.row(y), width, result.r.row(y));
@@ -27,11 +23,7 @@ ColourPlanes mixAtEdges(const ColourViews& colour, const Plain& plain, const Mix
       std::copy_n(colour.a.row(y), width, result.a.row(y));
       for (int x = 0; x < width; ++x) {
         if (plain(x, y)) continue;
-        const Rgba c = mixed(x, y);
-        result.r(x, y) = c[0];
-        result.g(x, y) = c[1];
-        result.b(x, y) = c[2];
-        result.a(x, y) = c[3];
+        setPaint(views, x, y, mixed(x, y));
       }
     }
   });

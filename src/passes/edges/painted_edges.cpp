@@ -60,14 +60,14 @@ class EdgePainter {
     const float most = mostMoved(front, *site);
     const float shift = most * (grain + front.overrun);
     const float inside = at.inside + (site->inFront ? shift : -shift);
-    const float gap = dryShare(front, site->inFront ? inside : -inside, *site, frontAt);
+    const float gap = dryShare(front, site->inFront ? at.inside : -at.inside, *site, frontAt);
     const float rimOwn = site->inFront ? rimDensity(own, inside, site->melted, grain) : 1.0f;
     const bool moves = room > 0.0f && (front.rough > 0.0f || site->melted > 0.0f);
     const bool meets = moves || (room > 0.0f && gap > 0.0f && at.inside < 1.0f);
     if (!meets && rimOwn == 1.0f && gap == 0.0f) return;
 
     const float ownGap = site->inFront ? gap : 0.0f, otherGap = gap - ownGap;
-    const Rgba still = pooled(met(x, y, paint), rimOwn) * (1.0f - ownGap);
+    const Rgba still = pooled(paintAt(paint, x, y), rimOwn) * (1.0f - ownGap);
     // Where an edge is lost, strokes of both sides reach into each other.
     const float melt =
         std::min(front.lost * site->melted, 2.0f * std::min(site->half, site->behind));
@@ -75,13 +75,13 @@ class EdgePainter {
     const float width = slanted(most * site->slope) + 0.15f * most + 0.5f * melt;
     const float share =
         std::clamp((inside + (site->inFront ? reached : -reached)) / width + 0.5f, 0.0f, 1.0f);
-    if (!meets || (share >= 1.0f && at.inside > 1.0f)) return set(still, x, y, paint);
+    if (!meets || (share >= 1.0f && at.inside > 1.0f)) return setPaint(paint, x, y, still);
     const Rgba here = pooled(paintAt(in_.own, x, y), rimOwn);
     const float rimOther = site->inFront ? 1.0f : rimDensity(other, -inside, site->melted, grain);
     const Rgba there = pooled(paintAt(in_.own, at.beyond.x, at.beyond.y), rimOther);
     const Rgba moved =
         here * (share * (1.0f - ownGap)) + there * ((1.0f - share) * (1.0f - otherGap));
-    set(still + (moved - still) * room, x, y, paint);
+    setPaint(paint, x, y, still + (moved - still) * room);
   }
 
   /// How far from a border anything is done.
@@ -96,20 +96,10 @@ class EdgePainter {
     return p.rough * (1.075f + std::fabs(p.overrun)) + 0.5f * p.lost + 1.0f;
   }
 
-  static Rgba met(int x, int y, const PaintViews& paint) {
-    return Rgba{paint.r(x, y), paint.g(x, y), paint.b(x, y), paint.a(x, y)};
-  }
-  static void set(const Rgba& colour, int x, int y, const PaintViews& paint) {
-    paint.r(x, y) = colour[0];
-    paint.g(x, y) = colour[1];
-    paint.b(x, y) = colour[2];
-    paint.a(x, y) = colour[3];
-  }
-
   /// All that is left to do further away.
   static void leaveOut(float gap, int x, int y, const PaintViews& paint) {
     if (gap == 0.0f) return;
-    set(met(x, y, paint) * (1.0f - gap), x, y, paint);
+    setPaint(paint, x, y, paintAt(paint, x, y) * (1.0f - gap));
   }
 
   /// A border is straight near each of its pixels, for three quarters of a pixel to both sides.
@@ -162,7 +152,8 @@ class EdgePainter {
   }
 
   /// Share of the paint that a dry brush leaves out: in its hollows, where the strokes along the
-  /// border are thin.
+  /// border are thin. inside: from the border as it was, for beyond what the grain moves nothing
+  /// tells how far it did.
   float dryShare(const PaintedEdgeParams& params, float inside, const BorderSite& site,
                  const PixelAt& at) const {
     if (!(params.dry > 0.0f)) return 0.0f;

@@ -98,6 +98,22 @@ TEST(BrokenEdges, DryPaintIsLeftOutWhereStrokesAlongTheEdgeAreThin) {
   EXPECT_EQ(scene.a(EdgeScene::border - 8, 0), 1.0f) << "away from the edge";
 }
 
+TEST(BrokenEdges, DryPaintIsAsDryWhetherTheEdgeIsMovedOrNot) {
+  EdgeScene still(0), moved(0);
+  for (EdgeScene* both : {&still, &moved}) {
+    both->params[0].dry = 1;
+    both->params[0].dryWidth = 5;
+    std::fill_n(both->grain.row(0), EdgeScene::width * EdgeScene::height, -0.6f);
+  }
+  moved.params[0].rough = 2;
+  still.paint();
+  moved.paint();
+  // The first of these is where the edge's move ends, the others lie beyond.
+  for (int x = EdgeScene::border - 3; x > EdgeScene::border - 7; --x)
+    EXPECT_NEAR(moved.a(x, 4), still.a(x, 4), 1e-5f) << x;
+  EXPECT_LT(still.a(EdgeScene::border - 3, 4), 0.9f) << "some is left out there";
+}
+
 TEST(BrokenEdges, ADryGapEndsWithTheThingAndLeavesNoLineRoundIt) {
   // The thing covers a quarter of the column beyond its last pixel.
   EdgeScene scene(0), beside(2);

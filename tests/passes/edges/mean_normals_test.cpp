@@ -82,6 +82,22 @@ TEST(MeanNormals, ALineThinnerThanAPixelIsEven) {
   }
 }
 
+// Ranks name a thing once; a damaged file may name it in all.
+TEST(MeanNormals, AThingInSeveralRanksIsOneThing) {
+  Bowl bowl(0.6);
+  const ColourPlanes once = bowl.blend();
+  const Floats quarter(wide, high, 0.25f);
+  const CoverageRank ranks[] = {
+      {bowl.first, quarter}, {bowl.first, quarter}, {bowl.first, quarter}, {bowl.first, quarter}};
+  const ColourPlanes four = blendByMeanNormals({bowl.r, bowl.g, bowl.b, bowl.a},
+                                               {bowl.surfaces(), bowl.own, ranks, bowl.mean});
+  for (int y = 0; y < high; ++y)
+    for (int x = 0; x < wide; ++x) {
+      EXPECT_NEAR(four.r(x, y), once.r(x, y), 1e-5f) << x << " " << y;
+      EXPECT_NEAR(four.a(x, y), 1.0f, 1e-5f);
+    }
+}
+
 TEST(MeanNormals, AwayFromEdgesNothingChanges) {
   Bowl bowl(0.6);
   const ColourPlanes result = bowl.blend();
