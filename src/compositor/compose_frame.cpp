@@ -10,6 +10,7 @@
 #include "compositor/own_lights.h"
 #include "compositor/paint_styles.h"
 #include "compositor/scale_down.h"
+#include "compositor/stroke_normals.h"
 #include "compositor/styled_surfaces.h"
 #include "image/parallel.h"
 #include "passes/tone/surfaces.h"
@@ -35,6 +36,18 @@ void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageS
   sink.labels("surfaces", surfaces);
 }
 
+/// Strokes have their places; what those were made of is read by no one else.
+void freeGrounds(FramePlanes& planes) {
+  planes.rest = {};
+  for (Floats* plane : {&planes.u, &planes.v, &planes.instanceRandom}) *plane = {};
+  planes.materialId = {};
+}
+
+/// Whether the surfaces are still wanted once the tone is known.
+bool wantsSurfaces(const Look& look, const StyledSurfaces& styled) {
+  return smoothsNormals(styled) || look.output.scale > 1 || asksFor(look, "surface.id");
+}
+
 }  // namespace
 
 FrameResult composeFrame(const Look& asked, const StripSet& strips, const FramePlan& plan,
@@ -53,6 +66,7 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   std::vector<Floats>* const wantedTones = paintsOwnLights(look, plan) ? &perLight : nullptr;
   Floats tone =
       frameTone(look, plan, planes, surfaces, result, sink, clock, wantedLight, wantedTones);
+  planes.lights.clear();
 
   const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
   result.fittingStyles = styled.fitting;
@@ -66,6 +80,8 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   const ToneFloor floor = toneFloor(look, plan, planes);
   levelTone(floor, styled, tone);
   if (ownLights) levelTone(floor, styled, shared);
+  freeGrounds(planes);
+  if (!wantsSurfaces(look, styled)) surfaces = {};
   lap(clock, "styles and tone");
   if (sink) sink->number("brush.tone", tone);
   const bool diagnostics = sink || asksFor(look, "brush.angle") || asksFor(look, "brush.repeat");

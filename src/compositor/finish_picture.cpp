@@ -64,10 +64,8 @@ void layOnGround(const FinishInput& in, BrushResult& brush) {
   if (paper.strength > 0.0f) depositPaint(viewsOf(brush), in.tone, brush.grain, surface, paper);
   const bool edges = paintsEdges(in.styled);
   BrushResult own;
-  if (edges)
-    own = keepBeforeEdges(in.plan, in.planes, brush);
-  else
-    letThingsMeet(in, brush);
+  if (edges) own = cloneColours(brush);
+  letThingsMeet(in, brush);
   const FrameGround ground(in, brush.a, surface);
   if (edges) paintStyleEdges(in.plan, in.planes, in.styled, own, ground.get(), brush);
   if (ground.get()) layOver(viewsOf(brush), *ground.get());

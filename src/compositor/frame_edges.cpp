@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <unordered_map>
-#include <utility>
 
 #include "base/same_params.h"
 #include "image/parallel.h"
@@ -101,20 +100,9 @@ void paintLines(const OutlineResult& lines, const StyledSurfaces& styled,
 }  // namespace
 
 void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush) {
-  if (!planes.coverageIds.empty()) keepBeforeEdges(plan, planes, brush);
-}
-
-BrushResult keepBeforeEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush) {
-  if (planes.coverageIds.empty()) return cloneColours(brush);
+  if (planes.coverageIds.empty()) return;
   const Labels own = ownCryptomatteIds(plan, planes.objectId);
-  ColourPlanes blended =
-      blendByCoverage({brush.r, brush.g, brush.b, brush.a}, own, coverageRanks(planes));
-  BrushResult before;
-  before.r = std::exchange(brush.r, std::move(blended.r));
-  before.g = std::exchange(brush.g, std::move(blended.g));
-  before.b = std::exchange(brush.b, std::move(blended.b));
-  before.a = std::exchange(brush.a, std::move(blended.a));
-  return before;
+  blendByCoverage({brush.r, brush.g, brush.b, brush.a}, own, coverageRanks(planes));
 }
 
 bool knowsMeanNormals(const FramePlanes& planes) {
@@ -125,13 +113,8 @@ void blendByNormals(const FramePlan& plan, const FramePlanes& planes, const Styl
                     View<const uint8_t> joins, BrushResult& brush) {
   const Labels own = ownCryptomatteIds(plan, planes.objectId);
   const std::vector<CoverageRank> ranks = coverageRanks(planes);
-  ColourPlanes blended =
-      blendByMeanNormals({brush.r, brush.g, brush.b, brush.a},
-                         {edgeSurfaces(planes, styled, joins), own, ranks, planes.meanNormal});
-  brush.r = std::move(blended.r);
-  brush.g = std::move(blended.g);
-  brush.b = std::move(blended.b);
-  brush.a = std::move(blended.a);
+  blendByMeanNormals({brush.r, brush.g, brush.b, brush.a},
+                     {edgeSurfaces(planes, styled, joins), own, ranks, planes.meanNormal});
 }
 
 void blendInside(const FramePlanes& planes, const StyledSurfaces& styled, View<const uint8_t> joins,

@@ -11,9 +11,6 @@ namespace kagefude {
 /// it; else leaves the strokes as they are.
 void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
 
-/// The same; gives the colours as they were before.
-BrushResult keepBeforeEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
-
 /// Whether the frame has what blendByNormals needs.
 bool knowsMeanNormals(const FramePlanes& planes);
 

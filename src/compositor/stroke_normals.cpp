@@ -20,6 +20,12 @@ int windowOf(const StyledSurfaces& styled, size_t anchor) {
   return static_cast<int>(std::min(exp2Of(0.5f * steps), most) + 0.5f);
 }
 
+std::vector<int> windowsOf(const StyledSurfaces& styled) {
+  std::vector<int> windows;
+  for (size_t i = 0; i < styled.brushes.size(); ++i) windows.push_back(windowOf(styled, i));
+  return windows;
+}
+
 /// The surfaces of the anchors that `windows` gives this width; all else is background.
 Labels onlyWindow(const StyledSurfaces& styled, View<const uint32_t> surfaces,
                   const std::vector<int>& windows, int window) {
@@ -49,10 +55,14 @@ void takeUnit(const Labels& labels, const Vec3Plane& mean, Vec3Plane& normals) {
 
 }  // namespace
 
+bool smoothsNormals(const StyledSurfaces& styled) {
+  const std::vector<int> windows = windowsOf(styled);
+  return std::any_of(windows.begin(), windows.end(), [](int width) { return width > 0; });
+}
+
 Vec3Plane strokeNormals(const FramePlanes& planes, const StyledSurfaces& styled,
                         View<const uint32_t> surfaces) {
-  std::vector<int> windows;
-  for (size_t i = 0; i < styled.brushes.size(); ++i) windows.push_back(windowOf(styled, i));
+  const std::vector<int> windows = windowsOf(styled);
   std::set<int> widths(windows.begin(), windows.end());
   widths.erase(0);
   Vec3Plane normals;

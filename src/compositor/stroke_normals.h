@@ -13,4 +13,7 @@ namespace kagefude {
 Vec3Plane strokeNormals(const FramePlanes& planes, const StyledSurfaces& styled,
                         View<const uint32_t> surfaces);
 
+/// Whether a style asks for any.
+bool smoothsNormals(const StyledSurfaces& styled);
+
 }  // namespace kagefude

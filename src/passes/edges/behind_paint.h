@@ -7,11 +7,6 @@
 
 namespace kagefude {
 
-/// Planes of a picture that is being made, in place.
-struct PaintViews {
-  View<float> r, g, b, a;
-};
-
 /// Colours of some pixels of a row.
 struct ColourRun {
   static constexpr int most = 256;

@@ -51,10 +51,11 @@ Rgba blended(const ColourViews& colour, View<const uint32_t> ownId,
 
 }  // namespace
 
-ColourPlanes blendByCoverage(const ColourViews& colour, View<const uint32_t> ownId,
-                             std::span<const CoverageRank> ranks) {
-  return mixAtEdges(
-      colour,
+void blendByCoverage(const PaintViews& paint, View<const uint32_t> ownId,
+                     std::span<const CoverageRank> ranks) {
+  const ColourViews colour{paint.r, paint.g, paint.b, paint.a};
+  mixAtEdges(
+      paint,
       [&](int x, int y) {
         return ranks.empty() ||
                (ranks[0].coverage(x, y) >= fullShare && ranks[0].id(x, y) == ownId(x, y));

@@ -25,6 +25,10 @@ struct ColourViews {
 struct ColourPlanes {
   Floats r, g, b, a;
 };
+/// Planes of a picture that is being made, in place.
+struct PaintViews {
+  View<float> r, g, b, a;
+};
 
 /// **[ours]** Clean edges between styles: every pixel's colour was made for the one thing at its
 /// centre (`ownId`, in the ranks' ids, 0 = background); here it becomes Σ coverage x colour over
@@ -32,9 +36,9 @@ struct ColourPlanes {
 /// pixels of its own in the 3x3 round it, or in the 5x5 where those have none. Things found nowhere
 /// near are left out and their share goes to the others; share that belongs to background or is not
 /// named stays empty, so the result's alpha is the covered share. Where the first rank covers all,
-/// or ranks are absent, colours are taken over bit for bit. Coverage below smallestShare and NaN
+/// or ranks are absent, colours keep their bits. Coverage below smallestShare and NaN
 /// are ignored. Cost: 9 to 25 reads for each foreign rank of an edge pixel.
-ColourPlanes blendByCoverage(const ColourViews& colour, View<const uint32_t> ownId,
-                             std::span<const CoverageRank> ranks);
+void blendByCoverage(const PaintViews& paint, View<const uint32_t> ownId,
+                     std::span<const CoverageRank> ranks);
 
 }  // namespace kagefude

@@ -1,22 +1,16 @@
 #include "passes/edges/inner_edges.h"
 
 #include <algorithm>
-#include <vector>
 
-#include "image/parallel.h"
 #include "passes/edges/crease_line.h"
 #include "passes/edges/edge_tones.h"
+#include "passes/edges/mix_at_edges.h"
 
 namespace kagefude {
 namespace {
 
 constexpr size_t sides = 4;
 constexpr int longestRun = 32;
-
-struct Blended {
-  int x, y;
-  Rgba colour;
-};
 
 Rgba blended(const InnerEdges& edges, const PaintViews& paint, int x, int y) {
   const std::array<double, 8> shares = edges.shares(x, y);
@@ -137,20 +131,9 @@ void InnerEdges::stairs(int x, int y, std::array<double, 8>& shares) const {
 
 void blendInnerEdges(const EdgeSurfaces& surfaces, const PaintViews& paint) {
   const InnerEdges edges(surfaces);
-  const int width = surfaces.ids.width, height = surfaces.ids.height;
-  // Colours are set when all have been read.
-  std::vector<std::vector<Blended>> rows(static_cast<size_t>(height));
-  parallelRows(height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < width; ++x)
-        if (!edges.plain(x, y))
-          rows[static_cast<size_t>(y)].push_back({x, y, blended(edges, paint, x, y)});
-  });
-  parallelRows(height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (const Blended& pixel : rows[static_cast<size_t>(y)])
-        setPaint(paint, pixel.x, pixel.y, pixel.colour);
-  });
+  mixAtEdges(
+      paint, [&](int x, int y) { return edges.plain(x, y); },
+      [&](int x, int y) { return blended(edges, paint, x, y); });
 }
 
 }  // namespace kagefude

@@ -289,10 +289,11 @@ class Mixer {
 
 }  // namespace
 
-ColourPlanes blendByMeanNormals(const ColourViews& colour, const MeanNormalEdges& edges) {
+void blendByMeanNormals(const PaintViews& paint, const MeanNormalEdges& edges) {
+  const ColourViews colour{paint.r, paint.g, paint.b, paint.a};
   const Mixer mixer(colour, edges);
-  return mixAtEdges(
-      colour, [&](int x, int y) { return mixer.plain(x, y); },
+  mixAtEdges(
+      paint, [&](int x, int y) { return mixer.plain(x, y); },
       [&](int x, int y) { return mixer.mixed(x, y); });
 }
 

@@ -29,9 +29,9 @@ struct MeanNormalEdges {
 /// the mean is not finite, nothing is known of the rest of the mean, so the mixture without it
 /// stands.
 ///
-/// colour: as it was painted for each pixel's centre. Where one surface covers a pixel and the
-/// mean is its normal, colours are taken over bit for bit. Cost: some thousand operations at a
+/// paint: as it was painted for each pixel's centre. Where one surface covers a pixel and the
+/// mean is its normal, colours keep their bits. Cost: some thousand operations at a
 /// pixel of an edge, ten thousand where it looks farther away.
-ColourPlanes blendByMeanNormals(const ColourViews& colour, const MeanNormalEdges& edges);
+void blendByMeanNormals(const PaintViews& paint, const MeanNormalEdges& edges);
 
 }  // namespace kagefude

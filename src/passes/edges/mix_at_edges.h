@@ -1,33 +1,31 @@
 #pragma once
 
-#include <algorithm>
+#include <vector>
 
 #include "image/parallel.h"
 #include "passes/edges/edge_tones.h"
 
 namespace kagefude {
 
-/// A picture whose pixels are mixed(x, y) but where plain(x, y), as most are: those are taken over
-/// bit for bit.
+/// Makes a picture's pixels mixed(x, y) but where plain(x, y), as most are: those keep their bits.
+/// Colours are set when all have been read, so that `mixed` may read around it.
 template <class Plain, class Mixed>
-ColourPlanes mixAtEdges(const ColourViews& colour, const Plain& plain, const Mixed& mixed) {
-  const int width = colour.r.width, height = colour.r.height;
-  ColourPlanes result{Floats(width, height), Floats(width, height), Floats(width, height),
-                      Floats(width, height)};
-  const PaintViews views{result.r.view(), result.g.view(), result.b.view(), result.a.view()};
-  parallelRows(height, [&](int first, int end) {
-    for (int y = first; y < end; ++y) {
-      std::copy_n(colour.r.row(y), width, result.r.row(y));
-      std::copy_n(colour.g.row(y), width, result.g.row(y));
-      std::copy_n(colour.b.row(y), width, result.b.row(y));
-      std::copy_n(colour.a.row(y), width, result.a.row(y));
-      for (int x = 0; x < width; ++x) {
-        if (plain(x, y)) continue;
-        setPaint(views, x, y, mixed(x, y));
-      }
-    }
+void mixAtEdges(const PaintViews& paint, const Plain& plain, const Mixed& mixed) {
+  struct Pixel {
+    int x;
+    Rgba colour;
+  };
+  std::vector<std::vector<Pixel>> rows(static_cast<size_t>(paint.r.height));
+  parallelRows(paint.r.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (int x = 0; x < paint.r.width; ++x)
+        if (!plain(x, y)) rows[static_cast<size_t>(y)].push_back({x, mixed(x, y)});
   });
-  return result;
+  parallelRows(paint.r.height, [&](int first, int end) {
+    for (int y = first; y < end; ++y)
+      for (const Pixel& pixel : rows[static_cast<size_t>(y)])
+        setPaint(paint, pixel.x, y, pixel.colour);
+  });
 }
 
 }  // namespace kagefude

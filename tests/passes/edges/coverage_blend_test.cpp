@@ -21,7 +21,12 @@ struct Row {
   }
   ColourPlanes blend() const {
     const CoverageRank ranks[] = {{first, firstShare}, {second, secondShare}};
-    return blendByCoverage({r, g, b, a}, own, ranks);
+    return blend(ranks);
+  }
+  ColourPlanes blend(std::span<const CoverageRank> ranks) const {
+    ColourPlanes colour{r.clone(), g.clone(), b.clone(), a.clone()};
+    blendByCoverage({colour.r, colour.g, colour.b, colour.a}, own, ranks);
+    return colour;
   }
 };
 
@@ -71,7 +76,7 @@ TEST(CoverageBlend, ThingFoundNowhereLeavesItsShareToTheOthers) {
 
 TEST(CoverageBlend, NoRanksAndBrokenShares) {
   Row row;
-  const ColourPlanes plain = blendByCoverage({row.r, row.g, row.b, row.a}, row.own, {});
+  const ColourPlanes plain = row.blend({});
   EXPECT_EQ(plain.r(1, 0), 1.0f);
   row.firstShare(1, 0) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(row.blend().a(1, 0), 0.0f);

@@ -55,13 +55,21 @@ struct Bowl {
 
   ColourPlanes blend() const {
     const CoverageRank ranks[] = {{first, share}};
-    return blendByMeanNormals({r, g, b, a}, {surfaces(), own, ranks, mean});
+    return blend(ranks);
+  }
+  ColourPlanes blend(std::span<const CoverageRank> ranks) const {
+    ColourPlanes colour{r.clone(), g.clone(), b.clone(), a.clone()};
+    blendByMeanNormals({colour.r, colour.g, colour.b, colour.a}, {surfaces(), own, ranks, mean});
+    return colour;
   }
   // What is known without the mean.
-  ColourPlanes blendWithout() {
-    blendInnerEdges(surfaces(), {r.view(), g.view(), b.view(), a.view()});
+  ColourPlanes blendWithout() const {
+    ColourPlanes colour{r.clone(), g.clone(), b.clone(), a.clone()};
+    const PaintViews paint{colour.r, colour.g, colour.b, colour.a};
+    blendInnerEdges(surfaces(), paint);
     const CoverageRank ranks[] = {{first, share}};
-    return blendByCoverage({r, g, b, a}, own, ranks);
+    blendByCoverage(paint, own, ranks);
+    return colour;
   }
   // Greatest over the pixels away from the frame's border.
   float error(const ColourPlanes& result) const {
@@ -89,8 +97,7 @@ TEST(MeanNormals, AThingInSeveralRanksIsOneThing) {
   const Floats quarter(wide, high, 0.25f);
   const CoverageRank ranks[] = {
       {bowl.first, quarter}, {bowl.first, quarter}, {bowl.first, quarter}, {bowl.first, quarter}};
-  const ColourPlanes four = blendByMeanNormals({bowl.r, bowl.g, bowl.b, bowl.a},
-                                               {bowl.surfaces(), bowl.own, ranks, bowl.mean});
+  const ColourPlanes four = bowl.blend(ranks);
   for (int y = 0; y < high; ++y)
     for (int x = 0; x < wide; ++x) {
       EXPECT_NEAR(four.r(x, y), once.r(x, y), 1e-5f) << x << " " << y;
