@@ -9,7 +9,7 @@
 #include "base/nearest_name.h"
 #include "base/printed_json.h"
 #include "cli/commands.h"
-#include "compositor/inspect_depth_maps.h"
+#include "compositor/inspect_lights.h"
 #include "frame/inspect_frame.h"
 #include "look/look.h"
 
@@ -122,7 +122,7 @@ void addInspectCommand(CLI::App& app, Console& console, int& exit) {
   command->callback([options, &console, &exit] {
     const Look look = readLook(options->look, {});
     Inspection found = inspectFrame(options->input, look.frame);
-    inspectDepthMaps(look.frame, found);
+    inspectLights(look.frame, found);
     if (options->json)
       console.results(printedJson(toJson(found)));
     else
