@@ -14,7 +14,7 @@ struct EdgePaint {
   ColourViews own;                            ///< each pixel's paint, of the thing at its centre
   View<const uint16_t> things;                ///< 0 = background, i -> params[i - 1]
   std::span<const PaintedEdgeParams> params;  ///< widths in pixels
-  Vec3View position;           ///< world; with `eye` it tells what is in front; may be empty
+  Vec3View position{};         ///< world; with `eye` it tells what is in front; may be empty
   V3f eye{0, 0, 0};            ///< of the camera
   View<const float> distance;  ///< from the camera, only compared, where no position is given
   View<const float> grain;     ///< of the strokes, mean 0 and variance 1
