@@ -10,6 +10,7 @@
 #include "base/printed_json.h"
 #include "cli/commands.h"
 #include "compositor/inspect_lights.h"
+#include "frame/foreign_json.h"
 #include "frame/inspect_frame.h"
 #include "look/look.h"
 
@@ -81,7 +82,7 @@ void printInspection(Console& out, const Inspection& found) {
   if (!found.views.empty())
     out.result(fmt::format("views {}; shown: {}", listNames(found.views), found.view));
   if (found.sidecar.empty())
-    out.result("no sidecar");
+    out.result(foreignJson(found.path).empty() ? "no sidecar" : "no sidecar of kagefude's");
   else
     out.result(fmt::format("sidecar {}: frame {}, {} fps", found.sidecar, found.frame.value_or(0),
                            found.fps.value_or(0)));

@@ -11,6 +11,7 @@
 #include "compositor/position_pass.h"
 #include "compositor/scale_down.h"
 #include "frame/cryptomatte.h"
+#include "frame/foreign_json.h"
 #include "frame/frame_view.h"
 #include "frame/lossy_passes.h"
 
@@ -256,13 +257,30 @@ const SidecarObject* FramePlan::findObject(uint32_t id) const {
   return name.empty() ? nullptr : sidecar->findObject(name);
 }
 
+namespace {
+
+/// What a frame lacks without its JSON is said with the JSON that is there and is someone else's.
+FramePlan planWithJson(const Look& look, ImageFile image, const std::filesystem::path& path,
+                       int frame) {
+  std::optional<Sidecar> sidecar = findSidecar(path);
+  const std::string foreign = sidecar ? "" : foreignJson(path);
+  try {
+    return planOpenFrame(look, std::move(image), std::move(sidecar), frame);
+  } catch (const InputError& error) {
+    if (foreign.empty()) throw;
+    throw InputError(fmt::format("{} ({})", error.what(), foreign));
+  }
+}
+
+}  // namespace
+
 FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame,
                     const std::string& view) {
   const std::string& taken = view.empty() ? look.frame.view : view;
   ImageFile image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken),
                               look.keyWithPlace("frame.files"));
   const bool viewless = view.empty() && !look.frame.view.empty() && image.views.empty();
-  FramePlan plan = planOpenFrame(look, std::move(image), findSidecar(path), frame);
+  FramePlan plan = planWithJson(look, std::move(image), path, frame);
   if (viewless)
     plan.warnings.insert(plan.warnings.begin(),
                          fmt::format("the file names no views; all of it is taken for the {} "

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "frame/aov_names.h"
 #include "frame/cryptomatte.h"
+#include "frame/foreign_json.h"
 #include "frame/frame_view.h"
 #include "frame/lossy_passes.h"
 #include "frame/rebuild_positions.h"
@@ -196,8 +197,10 @@ std::optional<Sidecar> trySidecar(Inspection& inspection) {
   try {
     auto sidecar = findSidecar(inspection.path);
     if (!sidecar) {
+      const std::string foreign = foreignJson(inspection.path);
       add(inspection, FindingKind::missing,
-          "there is no JSON beside the frame, so lights, camera and objects are not known",
+          (foreign.empty() ? "there is no JSON beside the frame" : foreign) +
+              ", so lights, camera and objects are not known",
           "export the frame with the Blender add-on, or give lights and camera in the look");
     }
     return sidecar;
