@@ -16,6 +16,8 @@ struct LightPlanes {
   std::vector<Bytes> masks;
   Floats traced;
   Floats depthMap;
+  std::vector<size_t> unknown{};  ///< by mask, or of the traced visibility: how much is NaN or Inf
+  size_t unknownTexels = 0;       ///< of the depth map: NaN and -Inf, taken as nothing
 };
 
 /// Everything that was read for one frame, one value a pixel of the data window. Empty where the

@@ -16,7 +16,7 @@ namespace {
 constexpr float mostError = 0.04f;
 
 bool isTold(const FrameLight& light) {
-  return light.readsDepthMap || light.method == ShadowMethod::disc;
+  return light.readsDepthMap || !light.maskChannels.empty() || !light.tracedChannel.empty();
 }
 
 /// What is left are the lights of which something can be told, and what that takes.

@@ -8,12 +8,13 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
-#include "base/place_error.h"
 #include "compositor/casting_scene.h"
 #include "compositor/doubt_bounds.h"
 #include "compositor/doubt_depth_map.h"
 #include "compositor/position_pass.h"
+#include "compositor/read_depth_map.h"
 #include "compositor/rest_pass.h"
+#include "compositor/unknown_light.h"
 #include "compositor/unseen_things.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
@@ -54,6 +55,12 @@ void requestIds(ChannelReader& reader, const Aov& aov, IdSource source, Requeste
     reader.floats(aov.channels.at(0), ids.index);
 }
 
+void requestMasks(ChannelReader& reader, const FrameLight& light, LightPlanes& planes) {
+  planes.unknown.resize(light.maskChannels.size());
+  for (size_t k = 0; k < light.maskChannels.size(); ++k)
+    reader.mask(light.maskChannels[k], planes.masks.emplace_back(), planes.unknown[k]);
+}
+
 Labels idsFrom(RequestedIds& ids, IdSource source) {
   if (source == IdSource::cryptomatte) {
     clearNonFiniteCoverage(ids.matte.coverage);
@@ -73,32 +80,6 @@ Floats luminancesOf(const Vec3Plane& colour) {
       }
   });
   return result;
-}
-
-Floats readDepthMap(const DepthMapSource& source) {
-  const ImageFile image = openFrame(source.file);
-  std::string channel = source.channel;
-  if (channel.empty() || !image.findChannel(channel))
-    channel = requireAov(image, {}, AovKind::depth).channels.at(0);
-  return std::move(readFloats(image, std::vector{channel}).at(0));
-}
-
-/// Empty where the method wants none, and, with a warning, where it would only help and is gone.
-Floats depthMapOf(const FrameLight& light, std::vector<std::string>& warnings) {
-  const bool pair =
-      light.method == ShadowMethod::pair && light.depthMap && light.passes.lightShape.depthMap;
-  if (!light.readsDepthMap && !pair) return {};
-  std::error_code unknown;
-  if (!entryOf(light.method).needs.depthMap &&
-      !std::filesystem::exists(light.depthMap->file, unknown)) {
-    warnings.push_back(
-        fmt::format("the depth map {} of light {} does not exist, so its masks alone make its "
-                    "shadow; keep it beside the frame, or set light_shape.depth_map = false",
-                    light.depthMap->file.string(), light.name));
-    return {};
-  }
-  if (!light.readsDepthMap) return {};
-  return withPlace(light.depthMap->named, [&] { return readDepthMap(*light.depthMap); });
 }
 
 /// A pixel without a normal shows no surface, whatever its id says.
@@ -219,8 +200,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   }
   planes.lights.resize(plan.lights.size());
   for (size_t i = 0; i < plan.lights.size(); ++i)
-    for (const std::string& channel : plan.lights[i].maskChannels)
-      reader.mask(channel, planes.lights[i].masks.emplace_back());
+    requestMasks(reader, plan.lights[i], planes.lights[i]);
   std::vector<Floats> traced(plan.lights.size());
   for (size_t i = 0; i < traced.size(); ++i)
     if (!plan.lights[i].tracedChannel.empty())
@@ -233,7 +213,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   for (size_t i = 0; i < plan.lights.size(); ++i) {
     LightPlanes& own = planes.lights[i];
     own.traced = std::move(traced[i]);
-    own.depthMap = depthMapOf(plan.lights[i], planes.warnings);
+    readDepthMapOf(plan.lights[i], own, planes.warnings);
   }
   planes.objectId = idsFrom(objects, plan.idSource);
   if (plan.materialId) planes.materialId = idsFrom(materials, plan.materialSource);
@@ -258,6 +238,8 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
   checkSpaces(plan, planes);
+  for (std::string& doubt : takeUnknownAsLit(plan, planes))
+    planes.warnings.push_back(std::move(doubt));
   for (std::string& doubt : setDoubtedMapsAside(plan, planes))
     planes.warnings.push_back(std::move(doubt));
   return planes;

@@ -1,6 +1,8 @@
 #include "frame/sanitise.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -74,6 +76,17 @@ size_t clearNonFiniteCoverage(std::span<Floats> ranks) {
       count += good ? 0 : 1;
     }
     return count;
+  });
+}
+
+size_t clearNoDepth(View<float> depth) {
+  return countRows(depth.height, [&](int y) {
+    float* const row = depth.row(y);
+    const auto isNone = [](float texel) { return !(texel >= -std::numeric_limits<float>::max()); };
+    int count = 0;  // alone in its loop, which then vectorises
+    for (int x = 0; x < depth.width; ++x) count += isNone(row[x]);
+    if (count > 0) std::replace_if(row, row + depth.width, isNone, 1e10f);
+    return static_cast<size_t>(count);
   });
 }
 

@@ -21,6 +21,10 @@ size_t clearNonFiniteColour(Vec3Plane& colour, View<float> alpha = {});
 /// id is then the pixel's own, and 0 in the others. Returns how many pixels that were.
 size_t clearNonFiniteCoverage(std::span<Floats> ranks);
 
+/// Makes texels of a depth map that are no depth, NaN and -Inf, the 1e10 of nothing hit; +Inf is
+/// that already, in halves and from some renderers. Returns how many those were.
+size_t clearNoDepth(View<float> depth);
+
 /// Replaces NaN and Inf by `background` and returns how many there were.
 size_t clearNonFinite(View<float> plane, float background);
 
