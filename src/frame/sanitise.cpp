@@ -1,8 +1,9 @@
 #include "frame/sanitise.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -14,6 +15,12 @@ namespace {
 bool finiteAt(const Vec3Plane& planes, int x, int y) {
   return std::isfinite(planes.x(x, y)) && std::isfinite(planes.y(x, y)) &&
          std::isfinite(planes.z(x, y));
+}
+
+// NaN of either sign, or -Inf: what lies above Inf of its sign, and -Inf itself.
+bool isNoDepth(float texel) {
+  const auto bits = std::bit_cast<int32_t>(texel);
+  return (bits > 0x7f800000) | ((bits < 0) & (bits >= -0x00800000));
 }
 
 // Counts are kept by row and summed in order, so nothing is shared between threads.
@@ -82,10 +89,9 @@ size_t clearNonFiniteCoverage(std::span<Floats> ranks) {
 size_t clearNoDepth(View<float> depth) {
   return countRows(depth.height, [&](int y) {
     float* const row = depth.row(y);
-    const auto isNone = [](float texel) { return !(texel >= -std::numeric_limits<float>::max()); };
-    int count = 0;  // alone in its loop, which then vectorises
-    for (int x = 0; x < depth.width; ++x) count += isNone(row[x]);
-    if (count > 0) std::replace_if(row, row + depth.width, isNone, 1e10f);
+    int count = 0;  // alone in its loop, of whole numbers, which then vectorises
+    for (int x = 0; x < depth.width; ++x) count += isNoDepth(row[x]);
+    if (count > 0) std::replace_if(row, row + depth.width, isNoDepth, 1e10f);
     return static_cast<size_t>(count);
   });
 }
