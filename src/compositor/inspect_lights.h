@@ -5,7 +5,8 @@
 
 namespace kagefude {
 
-/// Adds to what was found in a frame's headers what its pixels tell of lights: depth maps that do
+/// Adds to what was found in a frame's headers what its pixels tell: coverage and mean normals that
+/// cannot be, where the exporter made the frame, and of lights depth maps that do
 /// not fit their light's masks or cannot be read, as a comp would say, and discs of masks that are
 /// too few for their shadows (estimateDiscError) and have no map to help them, with how many would
 /// do. `names` says which passes the frame has. Nothing is added where the headers lack what a comp
