@@ -10,10 +10,12 @@
 #include "compositor/own_lights.h"
 #include "compositor/position_pass.h"
 #include "compositor/scale_down.h"
+#include "frame/aov_names.h"
 #include "frame/cryptomatte.h"
 #include "frame/foreign_json.h"
 #include "frame/frame_view.h"
 #include "frame/lossy_passes.h"
+#include "frame/mean_normal_pass.h"
 
 namespace kagefude {
 namespace {
@@ -69,24 +71,45 @@ void planObjects(const AovNames& names, FramePlan& plan) {
   }
 }
 
+/// Of a Cryptomatte without any rank the name is all that tells.
+bool isOfObjects(const AovNames& names, const std::string& name) {
+  if (!names.cryptoObject.empty()) return name.ends_with(names.cryptoObject);
+  return detail::aliasRank(AovKind::cryptoObject, name.substr(name.rfind('.') + 1)) >= 0;
+}
+
 /// Coverage needs ids that Cryptomatte and the object pass have in common.
-void planCoverage(const Look& look, const AovNames& names, FramePlan& plan) {
-  if (look.output.edges != Edges::coverage || plan.idSource == IdSource::surface) return;
-  if (plan.idSource == IdSource::index && !plan.sidecar) return;
-  plan.coverage = findAov(plan.image, names, AovKind::cryptoObject);
+bool wantsCoverage(const Look& look, const FramePlan& plan) {
+  if (look.output.edges != Edges::coverage || plan.idSource == IdSource::surface) return false;
+  return plan.idSource != IdSource::index || plan.sidecar;
 }
 
 /// The exporter's own pass beside its normals, in world space as they are.
 void planMeanNormal(FramePlan& plan) {
   if (!plan.coverage || !plan.sidecar) return;
-  const std::string& normal = plan.normal.channels.at(0);  // "layer.Normal.X"
-  const std::string pass = normal.substr(0, normal.rfind('.'));
-  const std::string layer = pass.substr(0, pass.rfind('.') + 1);
-  for (const char* axis : {"X", "Y", "Z"}) {
-    std::string name = fmt::format("{}MeanNormal.{}", layer, axis);
-    if (plan.image.findChannel(name)) plan.meanNormal.push_back(std::move(name));
+  MeanNormalPass found = findMeanNormal(plan.image, plan.normal);
+  plan.meanNormalFault = std::move(found.fault);
+  if (plan.meanNormalFault.empty()) plan.meanNormal = std::move(found.channels);
+}
+
+/// Of ranks that are read here; who lacks others loses nothing.
+void noteBrokenCryptomattes(const AovNames& names, bool wantsCoverage, FramePlan& plan) {
+  for (const Cryptomatte& broken : brokenCryptomattes(plan.image)) {
+    const size_t left = broken.idChannels.size();
+    const auto uses = [&](const Aov& aov, size_t ranks) {
+      return aov.name == broken.name && left < ranks;
+    };
+    const bool ids = plan.idSource == IdSource::cryptomatte && uses(plan.objectId, dominantRanks);
+    const bool materials = plan.materialId && plan.materialSource == IdSource::cryptomatte &&
+                           uses(*plan.materialId, dominantRanks);
+    const bool edges = plan.coverage
+                           ? uses(*plan.coverage, edgeRanks)
+                           : wantsCoverage && left == 0 && isOfObjects(names, broken.name);
+    if (ids || materials || edges)
+      plan.warnings.push_back(
+          fmt::format("{}; what it and those after it cover is not known, so edges are less clean; "
+                      "export the frame again",
+                      broken.fault));
   }
-  if (plan.meanNormal.size() != 3) plan.meanNormal.clear();
 }
 
 bool wantsOutlines(const Look& look) {
@@ -319,8 +342,10 @@ FramePlan planOpenFrame(const Look& asked, ImageFile image, std::optional<Sideca
   if (anyStyleHas(look, &StyleParams::material)) planMaterials(names, plan);
   nameObjectsFromSidecar(plan);
   nameObjectsFromLook(look, plan);
-  planCoverage(look, names, plan);
+  const bool coverage = wantsCoverage(look, plan);
+  if (coverage) plan.coverage = findAov(plan.image, names, AovKind::cryptoObject);
   planMeanNormal(plan);
+  noteBrokenCryptomattes(names, coverage, plan);
   if ((wantsOutlines(look) || endsPaint(look)) && !plan.sidecar)
     plan.depth = findAov(plan.image, names, AovKind::depth);
   plan.hasCasters = plan.sidecar && !plan.sidecar->casters.empty();

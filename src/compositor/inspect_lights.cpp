@@ -19,13 +19,12 @@ bool isTold(const FrameLight& light) {
   return light.readsDepthMap || !light.maskChannels.empty() || !light.tracedChannel.empty();
 }
 
-/// What is left are the lights of which something can be told, and what that takes.
-void keepWhatLightsNeed(FramePlan& plan) {
+/// What is left are the lights of which something can be told, edges, and what that takes.
+void keepWhatIsTold(FramePlan& plan) {
   for (std::optional<Aov>* aov : {&plan.albedo, &plan.beauty, &plan.rest, &plan.uv,
-                                  &plan.instanceRandom, &plan.coverage, &plan.materialId})
+                                  &plan.instanceRandom, &plan.materialId})
     aov->reset();
   plan.lines.clear();
-  plan.meanNormal.clear();
   std::erase_if(plan.lights, [](const FrameLight& light) { return !isTold(light); });
 }
 
@@ -71,12 +70,15 @@ void inspectLights(const AovNames& names, Inspection& inspection) {
   } catch (const Error&) {
     return;
   }
-  keepWhatLightsNeed(plan);
-  if (plan.lights.empty()) return;
+  plan.meanNormalFault.clear();  // the headers have told it
+  keepWhatIsTold(plan);
+  const bool ownEdges = plan.sidecar && plan.coverage;
+  if (plan.lights.empty() && !ownEdges) return;
   try {
     const FramePlanes planes = readFramePlanes(plan);
-    for (const std::string& warning : planes.warnings)
-      inspection.findings.push_back(findingOf(warning));
+    for (const auto* warnings : {&planes.warnings, &planes.meanWarnings})
+      for (const std::string& warning : *warnings)
+        inspection.findings.push_back(findingOf(warning));
     addWantedMasks(plan, planes, inspection);
   } catch (const InputError& error) {
     inspection.findings.push_back({FindingKind::error, error.what(), "export the frame again"});

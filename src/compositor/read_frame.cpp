@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "base/error.h"
@@ -11,6 +12,8 @@
 #include "compositor/casting_scene.h"
 #include "compositor/doubt_bounds.h"
 #include "compositor/doubt_depth_map.h"
+#include "compositor/doubt_mean_normals.h"
+#include "compositor/mend_coverage.h"
 #include "compositor/position_pass.h"
 #include "compositor/read_depth_map.h"
 #include "compositor/rest_pass.h"
@@ -46,7 +49,6 @@ bool isWhole(const ImageFile& file, const std::string& channelName) {
 }
 
 void requestIds(ChannelReader& reader, const Aov& aov, IdSource source, RequestedIds& ids) {
-  constexpr int dominantRanks = 2;  // ranks come by falling coverage, but for filtered files
   if (source == IdSource::cryptomatte)
     ids.matte = requestCryptomatte(reader, aov.name, dominantRanks);
   else if (isWhole(reader.file(), aov.channels.at(0)))
@@ -61,9 +63,9 @@ void requestMasks(ChannelReader& reader, const FrameLight& light, LightPlanes& p
     reader.mask(light.maskChannels[k], planes.masks.emplace_back(), planes.unknown[k]);
 }
 
-Labels idsFrom(RequestedIds& ids, IdSource source) {
+Labels idsFrom(RequestedIds& ids, IdSource source, const Aov& aov, FramePlanes& planes) {
   if (source == IdSource::cryptomatte) {
-    clearNonFiniteCoverage(ids.matte.coverage);
+    noteMended(aov.name, mendNamed(planes.normal, ids.matte), planes.warnings);
     return dominantIds(ids.matte);
   }
   return ids.whole.empty() ? roundIndices(ids.index) : std::move(ids.whole);
@@ -91,19 +93,28 @@ void clearWithoutNormal(FramePlanes& planes) {
   });
 }
 
-/// Nothing is seen where the position's part does not reach: a cropped part is empty around it.
-void clearOutside(const FramePlan& plan, FramePlanes& planes) {
-  const Channel* channel = plan.image.findChannel(plan.position.channels.front());
+/// Calls clear(x, y) where a channel's part does not reach: a cropped part is empty around it.
+template <class Clear>
+void clearOutside(const FramePlan& plan, const std::string& name, const Clear& clear) {
+  const Channel* channel = plan.image.findChannel(name);
   const Window& whole = plan.image.dataWindow;
   const Window& own = plan.image.parts[static_cast<size_t>(channel->part)].dataWindow;
   if (own == whole) return;
   const int left = own.x - whole.x, top = own.y - whole.y;
-  parallelRows(planes.height, [&](int first, int end) {
+  parallelRows(whole.height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x)
-        if (x < left || y < top || x >= left + own.width || y >= top + own.height)
-          planes.objectId(x, y) = 0;
+      for (int x = 0; x < whole.width; ++x)
+        if (x < left || y < top || x >= left + own.width || y >= top + own.height) clear(x, y);
   });
+}
+
+/// Where there is no position nothing is seen; a mean that is not there is not known.
+void clearOutside(const FramePlan& plan, FramePlanes& planes) {
+  clearOutside(plan, plan.position.channels.front(),
+               [&](int x, int y) { planes.objectId(x, y) = 0; });
+  constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+  for (const std::string& name : plan.meanNormal)
+    clearOutside(plan, name, [&](int x, int y) { planes.meanNormal.x(x, y) = unknown; });
 }
 
 /// A reading that the look can set stops the frame; what nothing explains is said.
@@ -191,7 +202,6 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   requestIds(reader, plan.objectId, plan.idSource, objects);
   if (plan.materialId) requestIds(reader, *plan.materialId, plan.materialSource, materials);
   CryptomattePlanes coverage;
-  constexpr int edgeRanks = 4;  // a pixel where more than four things meet shows no edge to clean
   if (plan.coverage) coverage = requestCryptomatte(reader, plan.coverage->name, edgeRanks);
   if (!plan.meanNormal.empty()) {
     reader.floats(plan.meanNormal[0], planes.meanNormal.x);
@@ -215,8 +225,9 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
     own.traced = std::move(traced[i]);
     readDepthMapOf(plan.lights[i], own, planes.warnings);
   }
-  planes.objectId = idsFrom(objects, plan.idSource);
-  if (plan.materialId) planes.materialId = idsFrom(materials, plan.materialSource);
+  planes.objectId = idsFrom(objects, plan.idSource, plan.objectId, planes);
+  if (plan.materialId)
+    planes.materialId = idsFrom(materials, plan.materialSource, *plan.materialId, planes);
   planes.coverageIds = std::move(coverage.ids);
   planes.coverageShares = std::move(coverage.coverage);
   const auto wantsScene = [](const FrameLight& light) {
@@ -231,12 +242,14 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   if (plan.emission) planes.emission = luminancesOf(emission);
   planes.badBeauty = clearNonFiniteColour(planes.beauty, planes.alpha.view());
   planes.badAlbedo = clearNonFiniteColour(planes.albedo);
-  planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
   clearWithoutDepth(plan, planes);
+  if (plan.coverage)
+    noteMended(plan.coverage->name, mendCoverage(plan, planes), planes.warnings);
   noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
+  checkMeanNormals(plan, planes);
   checkSpaces(plan, planes);
   for (std::string& doubt : takeUnknownAsLit(plan, planes))
     planes.warnings.push_back(std::move(doubt));
