@@ -49,8 +49,7 @@ void checkRow(int y, FramePlanes& planes, MeanFaults& faults) {
     faults.seen += seen ? 1 : 0;
     const bool zero = square == 0;
     if (zero && !(object && covered >= fullShare)) continue;
-    const bool finite =
-        std::isfinite(mean.x) && std::isfinite(mean.y) && std::isfinite(mean.z);
+    const bool finite = std::isfinite(mean.x) && std::isfinite(mean.y) && std::isfinite(mean.z);
     planes.meanNormal.set(x, y, V3f(unknown));
     if (seen) ++(zero ? faults.zero : finite ? faults.tooLong : faults.notFinite);
   }

@@ -8,6 +8,7 @@
 #include "compositor/casting_scene.h"
 #include "compositor/output_layers.h"
 #include "compositor/own_lights.h"
+#include "compositor/plan_coverage.h"
 #include "compositor/position_pass.h"
 #include "compositor/scale_down.h"
 #include "frame/aov_names.h"
@@ -15,7 +16,6 @@
 #include "frame/foreign_json.h"
 #include "frame/frame_view.h"
 #include "frame/lossy_passes.h"
-#include "frame/mean_normal_pass.h"
 
 namespace kagefude {
 namespace {
@@ -68,47 +68,6 @@ void planObjects(const AovNames& names, FramePlan& plan) {
     plan.objectId = *index;
   } else {
     plan.objectId = requireAov(plan.image, names, AovKind::cryptoObject);
-  }
-}
-
-/// Of a Cryptomatte without any rank the name is all that tells.
-bool isOfObjects(const AovNames& names, const std::string& name) {
-  if (!names.cryptoObject.empty()) return name.ends_with(names.cryptoObject);
-  return detail::aliasRank(AovKind::cryptoObject, name.substr(name.rfind('.') + 1)) >= 0;
-}
-
-/// Coverage needs ids that Cryptomatte and the object pass have in common.
-bool wantsCoverage(const Look& look, const FramePlan& plan) {
-  if (look.output.edges != Edges::coverage || plan.idSource == IdSource::surface) return false;
-  return plan.idSource != IdSource::index || plan.sidecar;
-}
-
-/// The exporter's own pass beside its normals, in world space as they are.
-void planMeanNormal(FramePlan& plan) {
-  if (!plan.coverage || !plan.sidecar) return;
-  MeanNormalPass found = findMeanNormal(plan.image, plan.normal);
-  plan.meanNormalFault = std::move(found.fault);
-  if (plan.meanNormalFault.empty()) plan.meanNormal = std::move(found.channels);
-}
-
-/// Of ranks that are read here; who lacks others loses nothing.
-void noteBrokenCryptomattes(const AovNames& names, bool wantsCoverage, FramePlan& plan) {
-  for (const Cryptomatte& broken : brokenCryptomattes(plan.image)) {
-    const size_t left = broken.idChannels.size();
-    const auto uses = [&](const Aov& aov, size_t ranks) {
-      return aov.name == broken.name && left < ranks;
-    };
-    const bool ids = plan.idSource == IdSource::cryptomatte && uses(plan.objectId, dominantRanks);
-    const bool materials = plan.materialId && plan.materialSource == IdSource::cryptomatte &&
-                           uses(*plan.materialId, dominantRanks);
-    const bool edges = plan.coverage
-                           ? uses(*plan.coverage, edgeRanks)
-                           : wantsCoverage && left == 0 && isOfObjects(names, broken.name);
-    if (ids || materials || edges)
-      plan.warnings.push_back(
-          fmt::format("{}; what it and those after it cover is not known, so edges are less clean; "
-                      "export the frame again",
-                      broken.fault));
   }
 }
 
@@ -342,10 +301,7 @@ FramePlan planOpenFrame(const Look& asked, ImageFile image, std::optional<Sideca
   if (anyStyleHas(look, &StyleParams::material)) planMaterials(names, plan);
   nameObjectsFromSidecar(plan);
   nameObjectsFromLook(look, plan);
-  const bool coverage = wantsCoverage(look, plan);
-  if (coverage) plan.coverage = findAov(plan.image, names, AovKind::cryptoObject);
-  planMeanNormal(plan);
-  noteBrokenCryptomattes(names, coverage, plan);
+  planCoverage(look, names, plan);
   if ((wantsOutlines(look) || endsPaint(look)) && !plan.sidecar)
     plan.depth = findAov(plan.image, names, AovKind::depth);
   plan.hasCasters = plan.sidecar && !plan.sidecar->casters.empty();

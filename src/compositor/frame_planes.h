@@ -46,7 +46,7 @@ struct FramePlanes {
   std::optional<CameraRays> rays;      ///< where the camera is known
   std::shared_ptr<const CastingScene> casting;  ///< null when no light needs it
   std::vector<std::string> warnings;            ///< what is doubted about the pixels
-  std::vector<std::string> meanWarnings;  ///< of the mean normals: where the look uses them
+  std::vector<std::string> meanWarnings;        ///< of the mean normals: where the look uses them
   size_t badPixels = 0;                         ///< pixels whose NaN or Inf made them background
   size_t badBeauty = 0;  ///< pixels of the beauty that hold NaN or Inf, taken as black
   size_t badAlbedo = 0;  ///< the same of the albedo

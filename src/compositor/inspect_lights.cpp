@@ -21,8 +21,8 @@ bool isTold(const FrameLight& light) {
 
 /// What is left are the lights of which something can be told, edges, and what that takes.
 void keepWhatIsTold(FramePlan& plan) {
-  for (std::optional<Aov>* aov : {&plan.albedo, &plan.beauty, &plan.rest, &plan.uv,
-                                  &plan.instanceRandom, &plan.materialId})
+  for (std::optional<Aov>* aov :
+       {&plan.albedo, &plan.beauty, &plan.rest, &plan.uv, &plan.instanceRandom, &plan.materialId})
     aov->reset();
   plan.lines.clear();
   std::erase_if(plan.lights, [](const FrameLight& light) { return !isTold(light); });

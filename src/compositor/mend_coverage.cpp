@@ -79,9 +79,7 @@ MendedCoverage mendNamed(const Vec3Plane& normal, CryptomattePlanes& matte) {
   if (matte.ids.empty()) return {};
   return mend(
       Ranks{matte.ids, matte.coverage},
-      [&](int x, int y) {
-        return normal.view()(x, y) == V3f(0.0f) ? 0u : matte.ids.front()(x, y);
-      },
+      [&](int x, int y) { return normal.view()(x, y) == V3f(0.0f) ? 0u : matte.ids.front()(x, y); },
       [](uint32_t id) { return id; });
 }
 

@@ -245,8 +245,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
   clearWithoutDepth(plan, planes);
-  if (plan.coverage)
-    noteMended(plan.coverage->name, mendCoverage(plan, planes), planes.warnings);
+  if (plan.coverage) noteMended(plan.coverage->name, mendCoverage(plan, planes), planes.warnings);
   noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
   checkMeanNormals(plan, planes);
