@@ -241,7 +241,7 @@ again "$kept" "whole again" "${whole[@]}"
 cp in/shot.0001.exr foreign.exr
 echo '{"asset": "x"}' >foreign.json
 expect 1 "no light" comp look.toml foreign.exr -o x.exr
-check "someone else's JSON is taken for ours: $(cat log)" test "$(grep -c foreign.json log)" -eq 0
+check "someone else's JSON is not called that: $(cat log)" grep -q "foreign.json beside the frame is none of kagefude's" log
 
 echo "$(basename "$0"): $passed passed, $failed failed"
 [ "$failed" -eq 0 ]
