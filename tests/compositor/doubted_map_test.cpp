@@ -11,9 +11,7 @@ struct DoubtedMap : ::testing::Test {
   static constexpr int width = 32, height = 24;
 
   DoubtedMap() {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        frame.setVector("Position", x, y, {(float(x) - 15.5f) / 8, (11.5f - float(y)) / 8, 0});
+    frame.layFloor();
     nlohmann::json light = testing::lightJson("Key", "point", {0, 0, 9}, {0, 0, -1}, 100);
     light["radius"] = 0.5;
     light["axes"] = {{"u", {1, 0, 0}}, {"v", {0, 1, 0}}};

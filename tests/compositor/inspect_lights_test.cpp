@@ -12,11 +12,7 @@ namespace {
 struct BarredLamp : ::testing::Test {
   static constexpr int width = 128, height = 64;
 
-  BarredLamp() {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        frame.setVector("Position", x, y, {(float(x) - 63.5f) / 8, (31.5f - float(y)) / 8, 0});
-  }
+  BarredLamp() { frame.layFloor(); }
 
   std::vector<Finding> findings(float halfBar, int bars = 3, const char* type = "point") {
     nlohmann::json light = testing::lightJson("Key", type, {0, 0, 9}, {0, 0, -1}, 100);

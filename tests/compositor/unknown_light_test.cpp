@@ -65,9 +65,7 @@ struct UnknownLight : ::testing::Test {
   static constexpr int width = 32, height = 24;
 
   UnknownLight() {
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        frame.setVector("Position", x, y, {(float(x) - 15.5f) / 8, (11.5f - float(y)) / 8, 0});
+    frame.layFloor();
     frame.sidecar["lights"].push_back(
         testing::lightJson("Key", "point", {0, 0, 9}, {0, 0, -1}, 100));
   }
