@@ -34,7 +34,7 @@ size_t editDistance(std::string_view a, std::string_view b) {
 std::optional<std::string> nearestName(std::string_view name,
                                        const std::vector<std::string>& candidates) {
   std::optional<std::string> best;
-  size_t fewest = name.size() / 3 + 2;
+  size_t fewest = std::min(name.size(), std::max<size_t>(name.size() / 3, 1) + 1);
   for (const std::string& candidate : candidates) {
     const size_t edits = editDistance(name, candidate);
     if (edits < fewest) {

@@ -8,8 +8,9 @@
 namespace kagefude {
 
 /// The candidate with the fewest edits (insert, delete, replace, swap of neighbours; letter case
-/// ignored) to `name`, or nothing when even the best needs more than a third of its length plus
-/// one. Ties go to the earlier candidate. Cost: length x length per candidate.
+/// ignored) to `name`, or nothing when even the best needs more than a third of its length (one at
+/// least), or as many as it has letters. Ties go to the earlier candidate. Cost: length x length
+/// per candidate.
 std::optional<std::string> nearestName(std::string_view name,
                                        const std::vector<std::string>& candidates);
 

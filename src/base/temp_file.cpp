@@ -13,6 +13,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstring>
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -36,6 +37,7 @@ struct LiveFiles {
   std::mutex mutex;
   std::set<fs::path> paths;
   std::set<fs::path> cleaned;  ///< folders that were looked through for leftovers
+  std::map<const CleansAtInterrupt*, std::function<void()>> cleaners;
   unsigned long created = 0;
   bool closed = false;
 };
@@ -277,11 +279,22 @@ std::vector<fs::path> removeLeftovers(const fs::path& folder) {
   return removed;
 }
 
+CleansAtInterrupt::CleansAtInterrupt(std::function<void()> clean) {
+  const std::lock_guard lock(liveFiles().mutex);
+  liveFiles().cleaners.emplace(this, std::move(clean));
+}
+
+CleansAtInterrupt::~CleansAtInterrupt() {
+  const std::lock_guard lock(liveFiles().mutex);
+  liveFiles().cleaners.erase(this);
+}
+
 void removeLiveTempFiles() noexcept {
   LiveFiles& live = liveFiles();
   std::lock_guard lock(live.mutex);
   live.closed = true;
   for (const fs::path& path : live.paths) unlink(path.c_str());
+  for (const auto& [owner, clean] : live.cleaners) clean();
 }
 
 }  // namespace kagefude

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -71,6 +72,16 @@ std::optional<TempName> parseTempName(std::string_view fileName);
 /// host. Returns the removed paths, sorted. A missing folder has none; files that cannot be removed
 /// are left.
 std::vector<std::filesystem::path> removeLeftovers(const std::filesystem::path& folder);
+
+/// What else an interrupt has to clean: while one of these lives, removeLiveTempFiles calls `clean`
+/// as well, from another thread. It must not make or commit a TempFile.
+class CleansAtInterrupt {
+ public:
+  explicit CleansAtInterrupt(std::function<void()> clean);
+  ~CleansAtInterrupt();
+  CleansAtInterrupt(const CleansAtInterrupt&) = delete;
+  CleansAtInterrupt& operator=(const CleansAtInterrupt&) = delete;
+};
 
 /// Removes every live temporary of this process and refuses new ones and commits from then on. For
 /// a process that is about to exit, callable from any thread while others still write.

@@ -12,9 +12,11 @@
 #include "base/error.h"
 #include "base/output_name.h"
 #include "base/printed_json.h"
+#include "base/temp_file.h"
 #include "cli/commands.h"
 #include "frame/sample_frame.h"
 #include "sequence/bench_frame.h"
+#include "sequence/interrupt.h"
 
 namespace kagefude {
 namespace {
@@ -52,16 +54,19 @@ class ScratchFolder {
       throw OutputError(fmt::format("cannot make the folder {}: {}", path_.string(),
                                     error ? error.message() : "it is there already"));
   }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
+  ~ScratchFolder() { remove(); }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  void remove() const {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
   std::filesystem::path path_;
+  const CleansAtInterrupt atInterrupt_{[this] { remove(); }};
 };
 
 std::string processorName() {
@@ -107,6 +112,7 @@ void printTable(const FrameBench& bench, const BenchOptions& options, int thread
 }
 
 void bench(const BenchOptions& options, Console& console) {
+  const EndsAtOnce interrupts;
   const FrameSize size = parseSize(options.size);
   const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <ostream>
 
 #include "base/output_name.h"
@@ -11,6 +12,7 @@
 #include "cli/commands.h"
 #include "sequence/check_sequence.h"
 #include "sequence/frame_range.h"
+#include "sequence/interrupt.h"
 
 namespace kagefude {
 namespace {
@@ -57,6 +59,9 @@ void print(std::ostream& out, const CheckResult& r) {
 }
 
 void check(const CheckOptions& options, Console& console) {
+  std::optional<EndsAtOnce> interrupts;
+  if (!options.plot.empty() || !options.moves.empty() || !options.jsonFile.empty())
+    interrupts.emplace();
   if (!options.plot.empty()) requireSuffix(options.plot, ".png", "--plot");
   if (!options.moves.empty()) requireSuffix(options.moves, ".png", "--moves");
   if (!options.jsonFile.empty()) requireSuffix(options.jsonFile, ".json", "--write-json");

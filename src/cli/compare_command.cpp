@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 
 #include "base/output_name.h"
@@ -11,6 +12,7 @@
 #include "exr/write_image.h"
 #include "frame/compared_planes.h"
 #include "passes/measure/compare_planes.h"
+#include "sequence/interrupt.h"
 
 namespace kagefude {
 namespace {
@@ -61,7 +63,11 @@ void print(std::ostream& out, const PlaneDifference& d, const ComparedPlanes& pl
 }
 
 void compare(const CompareOptions& options, Console& console) {
-  if (!options.picture.empty()) requireSuffix(options.picture, ".png", "--picture");
+  std::optional<EndsAtOnce> interrupts;
+  if (!options.picture.empty()) {
+    interrupts.emplace();
+    requireSuffix(options.picture, ".png", "--picture");
+  }
   const ComparedPlanes planes = readCompared(
       openImage(options.file), options.channel, openImage(options.truthFile),
       options.truthChannel.empty() ? options.channel : options.truthChannel, options.where);

@@ -9,7 +9,8 @@
 #include "base/nearest_name.h"
 #include "base/printed_json.h"
 #include "cli/commands.h"
-#include "compositor/inspect_depth_maps.h"
+#include "compositor/inspect_lights.h"
+#include "frame/foreign_json.h"
 #include "frame/inspect_frame.h"
 #include "look/look.h"
 
@@ -81,7 +82,7 @@ void printInspection(Console& out, const Inspection& found) {
   if (!found.views.empty())
     out.result(fmt::format("views {}; shown: {}", listNames(found.views), found.view));
   if (found.sidecar.empty())
-    out.result("no sidecar");
+    out.result(foreignJson(found.path).empty() ? "no sidecar" : "no sidecar of kagefude's");
   else
     out.result(fmt::format("sidecar {}: frame {}, {} fps", found.sidecar, found.frame.value_or(0),
                            found.fps.value_or(0)));
@@ -122,7 +123,7 @@ void addInspectCommand(CLI::App& app, Console& console, int& exit) {
   command->callback([options, &console, &exit] {
     const Look look = readLook(options->look, {});
     Inspection found = inspectFrame(options->input, look.frame);
-    inspectDepthMaps(look.frame, found);
+    inspectLights(look.frame, found);
     if (options->json)
       console.results(printedJson(toJson(found)));
     else

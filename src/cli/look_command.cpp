@@ -11,6 +11,7 @@
 #include "base/frame_pattern.h"
 #include "base/nearest_name.h"
 #include "base/output_name.h"
+#include "base/placed_together.h"
 #include "base/printed_json.h"
 #include "base/temp_file.h"
 #include "cli/commands.h"
@@ -25,6 +26,7 @@
 #include "image/parallel.h"
 #include "look/draft_look.h"
 #include "look/write_look.h"
+#include "sequence/interrupt.h"
 
 namespace kagefude {
 namespace {
@@ -49,44 +51,6 @@ void refuseOverwriting(const NewOptions& options) {
   if (!options.preview.empty()) refuseToReplace(options.preview, "--preview");
 }
 
-/// A folder beside the one that it becomes, which goes with all that is in it unless it is moved.
-class NewFolder {
- public:
-  explicit NewFolder(const fs::path& target)
-      : target_(target), path_(target.parent_path() / ("." + target.filename().string() + ".new")) {
-    makeFolders(target.parent_path().empty() ? "." : target.parent_path());
-    remove();
-    makeFolders(path_);
-  }
-  ~NewFolder() { remove(); }
-  NewFolder(const NewFolder&) = delete;
-  NewFolder& operator=(const NewFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
-  /// Moves the folder to its place; file by file where one is there, whose others stay.
-  void moveIn() {
-    std::error_code failed;
-    fs::rename(path_, target_, failed);
-    if (!failed) return;
-    for (const auto& entry : fs::directory_iterator(path_)) {
-      fs::rename(entry.path(), target_ / entry.path().filename(), failed);
-      if (failed)
-        throw OutputError(fmt::format("{} cannot be written: {}",
-                                      (target_ / entry.path().filename()).string(),
-                                      failed.message()));
-    }
-  }
-
- private:
-  void remove() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-
-  fs::path target_, path_;
-};
-
 void paintStrips(const std::vector<DraftStrip>& strips, const fs::path& folder) {
   std::vector<std::exception_ptr> errors(strips.size());
   parallelRows(static_cast<int>(strips.size()), 1, [&](int first, int) {
@@ -104,7 +68,8 @@ void paintStrips(const std::vector<DraftStrip>& strips, const fs::path& folder) 
     if (error) std::rethrow_exception(error);
 }
 
-void paintPreview(const NewOptions& options, const Colour& colour, Console& console) {
+/// Gives the line to say of it.
+std::string paintPreview(const NewOptions& options, const Colour& colour, Console& console) {
   const Look look = readLook(options.output, {});
   const StripSet strips(look, colour);
   const FramePlan plan = planFrame(look, options.frame, frameNumberOf(options.frame).value_or(1));
@@ -114,8 +79,7 @@ void paintPreview(const NewOptions& options, const Colour& colour, Console& cons
   writeFramePicture(look, colour, plan, result, options.preview, kind, "");
   for (const std::string& warning : result.warnings)
     console.message("warning: " + options.frame + ": " + warning);
-  console.result(
-      fmt::format("{}: {} x {}", options.preview, result.alpha.width(), result.alpha.height()));
+  return fmt::format("{}: {} x {}", options.preview, result.alpha.width(), result.alpha.height());
 }
 
 /// How many times larger than the shot a frame is: as the caller says, else its JSON, where that
@@ -174,6 +138,7 @@ void checkPreview(const NewOptions& options) {
 }
 
 void makeLook(const NewOptions& options, Console& console) {
+  const EndsAtOnce interrupts;
   requireSuffix(options.output, ".toml", "--output");
   checkPreview(options);
   const LookPreset& preset = lookPreset(options.preset);
@@ -185,14 +150,21 @@ void makeLook(const NewOptions& options, Console& console) {
   const DraftLook draft = draftLook(preset, frame, folder.filename().string());
   const std::string text = writeOverrides(draft.text, options.output, options.overrides).text;
   if (!options.preview.empty()) makeFolders(fs::absolute(options.preview).parent_path());
-  NewFolder strips(folder);
-  paintStrips(draft.strips, strips.path());
-  strips.moveIn();
-  writeFileAtomically(options.output, text);
-  console.result(fmt::format("{}: {} styles, their strips in {}", options.output,
-                             readLookText(text, options.output, {}).styles.size(),
+  const size_t styles = readLookText(text, options.output, {}).styles.size();
+  // A look without its strips, or strips without a look, would stand in the way of the next try.
+  PlacedTogether files(folder.parent_path() / ("." + folder.filename().string() + ".new"));
+  paintStrips(draft.strips, files.scratch());
+  const fs::path look = files.scratch() / fs::path(options.output).filename();
+  writeFileAtomically(look, text);
+  for (const DraftStrip& strip : draft.strips)
+    files.place(files.scratch() / strip.file, folder / strip.file);
+  files.place(look, options.output);
+  const std::string preview = options.preview.empty() ? "" : paintPreview(options, colour, console);
+  files.keep();
+  console.result(fmt::format("{}: {} style{}, {} in {}", options.output, styles,
+                             styles == 1 ? "" : "s", styles == 1 ? "its strip" : "their strips",
                              folder.string()));
-  if (!options.preview.empty()) paintPreview(options, colour, console);
+  if (!preview.empty()) console.result(preview);
 }
 
 void addNew(CLI::App& look, Console& console) {

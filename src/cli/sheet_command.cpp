@@ -14,6 +14,7 @@
 #include "compositor/contact_sheet.h"
 #include "compositor/look_colour.h"
 #include "compositor/read_frame.h"
+#include "sequence/interrupt.h"
 
 namespace kagefude {
 namespace {
@@ -74,6 +75,7 @@ void compareLooks(const SheetOptions& options, Console& console) {
 }
 
 void drawSheet(SheetOptions options, Console& console) {
+  const EndsAtOnce interrupts;
   requireSuffix(options.output, ".png", "--output");
   if (options.looks.empty()) {
     if (options.input.empty())

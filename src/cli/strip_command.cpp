@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -21,6 +22,7 @@
 #include "passes/strip/strip_tones.h"
 #include "picture/palette_file.h"
 #include "picture/strip_file.h"
+#include "sequence/interrupt.h"
 
 namespace kagefude {
 namespace {
@@ -107,6 +109,7 @@ PaintedStrip stripOfPicture(const MakeOptions& options) {
 }
 
 void makeStripFile(const MakeOptions& options, Console& console) {
+  const EndsAtOnce interrupts;
   requireSuffix(options.output, ".png", "output");
   if (!options.force) refuseToReplace(options.output, "output");  // it may be painted by hand
   const PaintedStrip strip =

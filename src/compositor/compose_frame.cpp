@@ -69,6 +69,8 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   planes.lights.clear();
 
   const StyledSurfaces styled = styleSurfaces(look, strips, plan, planes, result.warnings);
+  for (std::string& warning : edgeWarnings(planes, styled))
+    result.warnings.push_back(std::move(warning));
   result.fittingStyles = styled.fitting;
   result.outrankedStyles = styled.outranked;
   result.paintingStyles.resize(look.styles.size());

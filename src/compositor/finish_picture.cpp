@@ -80,7 +80,6 @@ void noteBadPixels(const FramePlanes& planes, std::vector<std::string>& warnings
   note(planes.badPixels, "Position or Normal", "background");
   note(planes.badBeauty, "the beauty", "black");
   note(planes.badAlbedo, "the albedo", "black");
-  note(planes.badCoverage, "the coverage of Cryptomatte", "wholly its first id");
 }
 
 }  // namespace
@@ -112,6 +111,10 @@ std::vector<std::string> inputWarnings(const FramePlan& plan, const FramePlanes&
                     planes.casting->warnings.end());
   noteBadPixels(planes, warnings);
   return warnings;
+}
+
+std::vector<std::string> edgeWarnings(const FramePlanes& planes, const StyledSurfaces& styled) {
+  return paintsEdges(styled) ? std::vector<std::string>{} : planes.meanWarnings;
 }
 
 }  // namespace kagefude

@@ -38,4 +38,7 @@ Floats finishPicture(const FinishInput& in, BrushResult& brush);
 /// casters.
 std::vector<std::string> inputWarnings(const FramePlan& plan, const FramePlanes& planes);
 
+/// What is doubted about passes that only edges use, where the frame's styles let them.
+std::vector<std::string> edgeWarnings(const FramePlanes& planes, const StyledSurfaces& styled);
+
 }  // namespace kagefude

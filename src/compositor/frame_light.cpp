@@ -128,6 +128,11 @@ bool moveLight(const LightLook* settings, FrameLight& light) {
   return true;
 }
 
+DepthMapSource depthMapOf(const LightDepthMap& map) {
+  return {map.file,          map.channel, map.lightFromWorld,
+          map.clipFromLight, "",          SaidOfDepthMap{map.width, map.height, map.perspective}};
+}
+
 FrameLight fromSidecar(const Look& look, const SidecarLight& source, const WholeShot* shot,
                        bool hasCasters) {
   FrameLight light;
@@ -155,9 +160,7 @@ FrameLight fromSidecar(const Look& look, const SidecarLight& source, const Whole
     light.method =
         automaticMethod(source, light.passes.lightShape.depthMap, hasCasters, light.light.radius);
   if (entryOf(light.method).needs.traced) light.tracedChannel = source.tracedLayer;
-  if (source.depthMap)
-    light.depthMap = {source.depthMap->file, source.depthMap->channel,
-                      source.depthMap->lightFromWorld, source.depthMap->clipFromLight, ""};
+  if (source.depthMap) light.depthMap = depthMapOf(*source.depthMap);
   light.geometry = geometryOf(source);
   light.towardsFar = towardsFarMask(source);
   if (needsMasks(light.method) && source.masks)

@@ -14,6 +14,12 @@
 
 namespace kagefude {
 
+/// What the JSON says of a depth map, which the file and the matrix say too.
+struct SaidOfDepthMap {
+  int width = 0, height = 0;
+  bool perspective = true;
+};
+
 /// Where a light's depth map is, and its camera.
 struct DepthMapSource {
   std::filesystem::path file;
@@ -21,6 +27,7 @@ struct DepthMapSource {
   Transform lightFromWorld;
   Transform clipFromLight;
   std::string named;  ///< the look's key that names it, with its place; "" where the JSON does
+  std::optional<SaidOfDepthMap> said{};
 };
 
 /// One light of one frame: what the sidecar and the look together say of it.

@@ -8,9 +8,12 @@
 #include "compositor/casting_scene.h"
 #include "compositor/output_layers.h"
 #include "compositor/own_lights.h"
+#include "compositor/plan_coverage.h"
 #include "compositor/position_pass.h"
 #include "compositor/scale_down.h"
+#include "frame/aov_names.h"
 #include "frame/cryptomatte.h"
+#include "frame/foreign_json.h"
 #include "frame/frame_view.h"
 #include "frame/lossy_passes.h"
 
@@ -66,26 +69,6 @@ void planObjects(const AovNames& names, FramePlan& plan) {
   } else {
     plan.objectId = requireAov(plan.image, names, AovKind::cryptoObject);
   }
-}
-
-/// Coverage needs ids that Cryptomatte and the object pass have in common.
-void planCoverage(const Look& look, const AovNames& names, FramePlan& plan) {
-  if (look.output.edges != Edges::coverage || plan.idSource == IdSource::surface) return;
-  if (plan.idSource == IdSource::index && !plan.sidecar) return;
-  plan.coverage = findAov(plan.image, names, AovKind::cryptoObject);
-}
-
-/// The exporter's own pass beside its normals, in world space as they are.
-void planMeanNormal(FramePlan& plan) {
-  if (!plan.coverage || !plan.sidecar) return;
-  const std::string& normal = plan.normal.channels.at(0);  // "layer.Normal.X"
-  const std::string pass = normal.substr(0, normal.rfind('.'));
-  const std::string layer = pass.substr(0, pass.rfind('.') + 1);
-  for (const char* axis : {"X", "Y", "Z"}) {
-    std::string name = fmt::format("{}MeanNormal.{}", layer, axis);
-    if (plan.image.findChannel(name)) plan.meanNormal.push_back(std::move(name));
-  }
-  if (plan.meanNormal.size() != 3) plan.meanNormal.clear();
 }
 
 bool wantsOutlines(const Look& look) {
@@ -256,13 +239,30 @@ const SidecarObject* FramePlan::findObject(uint32_t id) const {
   return name.empty() ? nullptr : sidecar->findObject(name);
 }
 
+namespace {
+
+/// What a frame lacks without its JSON is said with the JSON that is there and is someone else's.
+FramePlan planWithJson(const Look& look, ImageFile image, const std::filesystem::path& path,
+                       int frame) {
+  std::optional<Sidecar> sidecar = findSidecar(path);
+  const std::string foreign = sidecar ? "" : foreignJson(path);
+  try {
+    return planOpenFrame(look, std::move(image), std::move(sidecar), frame);
+  } catch (const InputError& error) {
+    if (foreign.empty()) throw;
+    throw InputError(fmt::format("{} ({})", error.what(), foreign));
+  }
+}
+
+}  // namespace
+
 FramePlan planFrame(const Look& look, const std::filesystem::path& path, int frame,
                     const std::string& view) {
   const std::string& taken = view.empty() ? look.frame.view : view;
   ImageFile image = openFrame(path, taken, groupFiles(path, look.frame.files, frame, taken),
                               look.keyWithPlace("frame.files"));
   const bool viewless = view.empty() && !look.frame.view.empty() && image.views.empty();
-  FramePlan plan = planOpenFrame(look, std::move(image), findSidecar(path), frame);
+  FramePlan plan = planWithJson(look, std::move(image), path, frame);
   if (viewless)
     plan.warnings.insert(plan.warnings.begin(),
                          fmt::format("the file names no views; all of it is taken for the {} "
@@ -302,7 +302,6 @@ FramePlan planOpenFrame(const Look& asked, ImageFile image, std::optional<Sideca
   nameObjectsFromSidecar(plan);
   nameObjectsFromLook(look, plan);
   planCoverage(look, names, plan);
-  planMeanNormal(plan);
   if ((wantsOutlines(look) || endsPaint(look)) && !plan.sidecar)
     plan.depth = findAov(plan.image, names, AovKind::depth);
   plan.hasCasters = plan.sidecar && !plan.sidecar->casters.empty();

@@ -11,6 +11,10 @@
 
 namespace kagefude {
 
+/// Ranks of a Cryptomatte that are read: for ids, since they come by falling coverage but for
+/// filtered files, and for edges, since a pixel where more things meet shows none to clean.
+inline constexpr int dominantRanks = 2, edgeRanks = 4;
+
 /// Where a frame's ids come from.
 enum class IdSource { cryptomatte, index, surface };
 
@@ -31,6 +35,7 @@ struct FramePlan {
   std::optional<Aov> depth;             ///< only for outlines where no camera is known
   std::optional<Aov> coverage;          ///< Cryptomatte of objects whose coverage draws the edges
   std::vector<std::string> meanNormal;  ///< channels X, Y, Z, only beside `coverage`; or empty
+  std::string meanNormalFault;          ///< why there are none although there are some
   IdSource idSource = IdSource::cryptomatte;
   Aov objectId;
   IdSource materialSource = IdSource::cryptomatte;

@@ -16,6 +16,8 @@ struct LightPlanes {
   std::vector<Bytes> masks;
   Floats traced;
   Floats depthMap;
+  std::vector<size_t> unknown{};  ///< by mask, or of the traced visibility: how much is NaN or Inf
+  size_t unknownTexels = 0;       ///< of the depth map: NaN and -Inf, taken as nothing
 };
 
 /// Everything that was read for one frame, one value a pixel of the data window. Empty where the
@@ -44,10 +46,10 @@ struct FramePlanes {
   std::optional<CameraRays> rays;      ///< where the camera is known
   std::shared_ptr<const CastingScene> casting;  ///< null when no light needs it
   std::vector<std::string> warnings;            ///< what is doubted about the pixels
+  std::vector<std::string> meanWarnings;        ///< of the mean normals: where the look uses them
   size_t badPixels = 0;                         ///< pixels whose NaN or Inf made them background
-  size_t badBeauty = 0;    ///< pixels of the beauty that hold NaN or Inf, taken as black
-  size_t badAlbedo = 0;    ///< the same of the albedo
-  size_t badCoverage = 0;  ///< pixels whose Cryptomatte coverage is NaN or Inf
+  size_t badBeauty = 0;  ///< pixels of the beauty that hold NaN or Inf, taken as black
+  size_t badAlbedo = 0;  ///< the same of the albedo
 };
 
 }  // namespace kagefude

@@ -16,8 +16,6 @@
 namespace kagefude {
 namespace {
 
-constexpr int dominantRanks = 2;
-
 Vec3Plane expectedPositions(const MotionFrame& now, const MotionFrame& before) {
   std::map<uint32_t, Transform> moves;  // worldBefore from worldNow
   for (const auto& [id, worldNow] : now.worldFromObject) {

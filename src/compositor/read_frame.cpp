@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
-#include "base/place_error.h"
 #include "compositor/casting_scene.h"
 #include "compositor/doubt_bounds.h"
 #include "compositor/doubt_depth_map.h"
+#include "compositor/doubt_mean_normals.h"
+#include "compositor/mend_coverage.h"
 #include "compositor/position_pass.h"
+#include "compositor/read_depth_map.h"
 #include "compositor/rest_pass.h"
+#include "compositor/unknown_light.h"
 #include "compositor/unseen_things.h"
 #include "exr/read_channels.h"
 #include "frame/cryptomatte.h"
@@ -45,7 +49,6 @@ bool isWhole(const ImageFile& file, const std::string& channelName) {
 }
 
 void requestIds(ChannelReader& reader, const Aov& aov, IdSource source, RequestedIds& ids) {
-  constexpr int dominantRanks = 2;  // ranks come by falling coverage, but for filtered files
   if (source == IdSource::cryptomatte)
     ids.matte = requestCryptomatte(reader, aov.name, dominantRanks);
   else if (isWhole(reader.file(), aov.channels.at(0)))
@@ -54,9 +57,15 @@ void requestIds(ChannelReader& reader, const Aov& aov, IdSource source, Requeste
     reader.floats(aov.channels.at(0), ids.index);
 }
 
-Labels idsFrom(RequestedIds& ids, IdSource source) {
+void requestMasks(ChannelReader& reader, const FrameLight& light, LightPlanes& planes) {
+  planes.unknown.resize(light.maskChannels.size());
+  for (size_t k = 0; k < light.maskChannels.size(); ++k)
+    reader.mask(light.maskChannels[k], planes.masks.emplace_back(), planes.unknown[k]);
+}
+
+Labels idsFrom(RequestedIds& ids, IdSource source, const Aov& aov, FramePlanes& planes) {
   if (source == IdSource::cryptomatte) {
-    clearNonFiniteCoverage(ids.matte.coverage);
+    noteMended(aov.name, mendNamed(planes.normal, ids.matte), planes.warnings);
     return dominantIds(ids.matte);
   }
   return ids.whole.empty() ? roundIndices(ids.index) : std::move(ids.whole);
@@ -75,32 +84,6 @@ Floats luminancesOf(const Vec3Plane& colour) {
   return result;
 }
 
-Floats readDepthMap(const DepthMapSource& source) {
-  const ImageFile image = openFrame(source.file);
-  std::string channel = source.channel;
-  if (channel.empty() || !image.findChannel(channel))
-    channel = requireAov(image, {}, AovKind::depth).channels.at(0);
-  return std::move(readFloats(image, std::vector{channel}).at(0));
-}
-
-/// Empty where the method wants none, and, with a warning, where it would only help and is gone.
-Floats depthMapOf(const FrameLight& light, std::vector<std::string>& warnings) {
-  const bool pair =
-      light.method == ShadowMethod::pair && light.depthMap && light.passes.lightShape.depthMap;
-  if (!light.readsDepthMap && !pair) return {};
-  std::error_code unknown;
-  if (!entryOf(light.method).needs.depthMap &&
-      !std::filesystem::exists(light.depthMap->file, unknown)) {
-    warnings.push_back(
-        fmt::format("the depth map {} of light {} does not exist, so its masks alone make its "
-                    "shadow; keep it beside the frame, or set light_shape.depth_map = false",
-                    light.depthMap->file.string(), light.name));
-    return {};
-  }
-  if (!light.readsDepthMap) return {};
-  return withPlace(light.depthMap->named, [&] { return readDepthMap(*light.depthMap); });
-}
-
 /// A pixel without a normal shows no surface, whatever its id says.
 void clearWithoutNormal(FramePlanes& planes) {
   parallelRows(planes.height, [&](int first, int end) {
@@ -110,19 +93,28 @@ void clearWithoutNormal(FramePlanes& planes) {
   });
 }
 
-/// Nothing is seen where the position's part does not reach: a cropped part is empty around it.
-void clearOutside(const FramePlan& plan, FramePlanes& planes) {
-  const Channel* channel = plan.image.findChannel(plan.position.channels.front());
+/// Calls clear(x, y) where a channel's part does not reach: a cropped part is empty around it.
+template <class Clear>
+void clearOutside(const FramePlan& plan, const std::string& name, const Clear& clear) {
+  const Channel* channel = plan.image.findChannel(name);
   const Window& whole = plan.image.dataWindow;
   const Window& own = plan.image.parts[static_cast<size_t>(channel->part)].dataWindow;
   if (own == whole) return;
   const int left = own.x - whole.x, top = own.y - whole.y;
-  parallelRows(planes.height, [&](int first, int end) {
+  parallelRows(whole.height, [&](int first, int end) {
     for (int y = first; y < end; ++y)
-      for (int x = 0; x < planes.width; ++x)
-        if (x < left || y < top || x >= left + own.width || y >= top + own.height)
-          planes.objectId(x, y) = 0;
+      for (int x = 0; x < whole.width; ++x)
+        if (x < left || y < top || x >= left + own.width || y >= top + own.height) clear(x, y);
   });
+}
+
+/// Where there is no position nothing is seen; a mean that is not there is not known.
+void clearOutside(const FramePlan& plan, FramePlanes& planes) {
+  clearOutside(plan, plan.position.channels.front(),
+               [&](int x, int y) { planes.objectId(x, y) = 0; });
+  constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+  for (const std::string& name : plan.meanNormal)
+    clearOutside(plan, name, [&](int x, int y) { planes.meanNormal.x(x, y) = unknown; });
 }
 
 /// A reading that the look can set stops the frame; what nothing explains is said.
@@ -210,7 +202,6 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   requestIds(reader, plan.objectId, plan.idSource, objects);
   if (plan.materialId) requestIds(reader, *plan.materialId, plan.materialSource, materials);
   CryptomattePlanes coverage;
-  constexpr int edgeRanks = 4;  // a pixel where more than four things meet shows no edge to clean
   if (plan.coverage) coverage = requestCryptomatte(reader, plan.coverage->name, edgeRanks);
   if (!plan.meanNormal.empty()) {
     reader.floats(plan.meanNormal[0], planes.meanNormal.x);
@@ -219,8 +210,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   }
   planes.lights.resize(plan.lights.size());
   for (size_t i = 0; i < plan.lights.size(); ++i)
-    for (const std::string& channel : plan.lights[i].maskChannels)
-      reader.mask(channel, planes.lights[i].masks.emplace_back());
+    requestMasks(reader, plan.lights[i], planes.lights[i]);
   std::vector<Floats> traced(plan.lights.size());
   for (size_t i = 0; i < traced.size(); ++i)
     if (!plan.lights[i].tracedChannel.empty())
@@ -233,10 +223,11 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   for (size_t i = 0; i < plan.lights.size(); ++i) {
     LightPlanes& own = planes.lights[i];
     own.traced = std::move(traced[i]);
-    own.depthMap = depthMapOf(plan.lights[i], planes.warnings);
+    readDepthMapOf(plan.lights[i], own, planes.warnings);
   }
-  planes.objectId = idsFrom(objects, plan.idSource);
-  if (plan.materialId) planes.materialId = idsFrom(materials, plan.materialSource);
+  planes.objectId = idsFrom(objects, plan.idSource, plan.objectId, planes);
+  if (plan.materialId)
+    planes.materialId = idsFrom(materials, plan.materialSource, *plan.materialId, planes);
   planes.coverageIds = std::move(coverage.ids);
   planes.coverageShares = std::move(coverage.coverage);
   const auto wantsScene = [](const FrameLight& light) {
@@ -251,13 +242,16 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   if (plan.emission) planes.emission = luminancesOf(emission);
   planes.badBeauty = clearNonFiniteColour(planes.beauty, planes.alpha.view());
   planes.badAlbedo = clearNonFiniteColour(planes.albedo);
-  planes.badCoverage = clearNonFiniteCoverage(planes.coverageShares);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);
   clearWithoutDepth(plan, planes);
+  if (plan.coverage) noteMended(plan.coverage->name, mendCoverage(plan, planes), planes.warnings);
   noteUnseen(plan, planes);
   clearUnpainted(plan, planes);
+  checkMeanNormals(plan, planes);
   checkSpaces(plan, planes);
+  for (std::string& doubt : takeUnknownAsLit(plan, planes))
+    planes.warnings.push_back(std::move(doubt));
   for (std::string& doubt : setDoubtedMapsAside(plan, planes))
     planes.warnings.push_back(std::move(doubt));
   return planes;

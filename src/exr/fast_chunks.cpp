@@ -81,20 +81,25 @@ void toFloats(const ExrKernels& kernels, ExrType type, const uint8_t* row, size_
     uintsToFloats(row, n, out);
 }
 
-/// A block at a time, so that floats that are no one's wish stay in the cache.
-void toMask(const ExrKernels& kernels, ExrType type, const uint8_t* row, size_t n, uint8_t* out) {
-  if (type == ExrType::float32) {
-    kernels.floatToMask(row, n, out);
-    return;
-  }
+/// A block at a time, so that floats that are no one's wish stay in the cache. Gives how many are
+/// NaN or Inf.
+size_t toMask(const ExrKernels& kernels, ExrType type, const uint8_t* row, size_t n, uint8_t* out) {
+  if (type == ExrType::float32) return kernels.floatToMask(row, n, out);
   constexpr size_t block = 1024;
   float values[block];
   const auto bytes = static_cast<size_t>(exrTypeBytes(type));
+  size_t unknown = 0;
   for (size_t x = 0; x < n; x += block) {
     const size_t count = std::min(block, n - x);
     toFloats(kernels, type, row + x * bytes, count, values);
-    kernels.floatToMask(reinterpret_cast<const uint8_t*>(values), count, out + x);
+    unknown += kernels.floatToMask(reinterpret_cast<const uint8_t*>(values), count, out + x);
   }
+  return unknown;
+}
+
+/// Chunks are read side by side; those that have anything to add are damaged, hence rare.
+void addUnknown(const ExrTarget& target, size_t unknown) {
+  if (unknown > 0 && target.unknown) std::atomic_ref(*target.unknown) += unknown;
 }
 
 /// Stores one row of a channel, as it is in the file, in all planes that want it but have not
@@ -107,7 +112,7 @@ void storeRow(const ExrKernels& kernels, const ChannelRun& run, const uint8_t* r
     }
     const size_t n = run.bytes / static_cast<size_t>(exrTypeBytes(run.type));
     if (const auto* mask = std::get_if<View<uint8_t>>(&target->pixels))
-      toMask(kernels, run.type, row, n, mask->row(y));
+      addUnknown(*target, toMask(kernels, run.type, row, n, mask->row(y)));
     else
       toFloats(kernels, run.type, row, n, std::get<View<float>>(target->pixels).row(y));
   }

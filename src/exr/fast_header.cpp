@@ -28,23 +28,19 @@ struct SetAttribute {
     return exr_attr_set_string(context, 0, name, v.c_str());
   }
   exr_result_t operator()(const std::array<int32_t, 2>& v) const {
-    exr_attr_v2i_t value;
-    std::copy(v.begin(), v.end(), value.arr);
+    const exr_attr_v2i_t value{v[0], v[1]};
     return exr_attr_set_v2i(context, 0, name, &value);
   }
   exr_result_t operator()(const std::array<int32_t, 3>& v) const {
-    exr_attr_v3i_t value;
-    std::copy(v.begin(), v.end(), value.arr);
+    const exr_attr_v3i_t value{v[0], v[1], v[2]};
     return exr_attr_set_v3i(context, 0, name, &value);
   }
   exr_result_t operator()(const std::array<float, 2>& v) const {
-    exr_attr_v2f_t value;
-    std::copy(v.begin(), v.end(), value.arr);
+    const exr_attr_v2f_t value{v[0], v[1]};
     return exr_attr_set_v2f(context, 0, name, &value);
   }
   exr_result_t operator()(const std::array<float, 3>& v) const {
-    exr_attr_v3f_t value;
-    std::copy(v.begin(), v.end(), value.arr);
+    const exr_attr_v3f_t value{v[0], v[1], v[2]};
     return exr_attr_set_v3f(context, 0, name, &value);
   }
   exr_result_t operator()(const std::array<float, 8>& v) const {
@@ -201,8 +197,7 @@ void writeExrHeader(const std::string& path, _priv_exr_context_t* context, const
   require(exr_add_part(context, nullptr, EXR_STORAGE_SCANLINE, &part), path, "the header");
   const exr_attr_box2i_t data = attributeBox(image.data);
   const exr_attr_box2i_t display = attributeBox(image.display);
-  exr_attr_v2f_t center;
-  std::copy(image.screenWindowCenter.begin(), image.screenWindowCenter.end(), center.arr);
+  const exr_attr_v2f_t center{image.screenWindowCenter[0], image.screenWindowCenter[1]};
   require(exr_initialize_required_attr(context, part, &display, &data, image.pixelAspect, &center,
                                        image.screenWindowWidth, EXR_LINEORDER_INCREASING_Y,
                                        compressionOf(image.compression)),

@@ -2,6 +2,7 @@
 
 #include <Imath/half.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "exr/fast_kernels_avx2.h"
@@ -45,12 +46,16 @@ void floatToHalf(const float* in, size_t n, uint16_t* out) {
   for (size_t i = 0; i < n; ++i) out[i] = imath_float_to_half(in[i]);
 }
 
-void floatToMask(const uint8_t* floats, size_t n, uint8_t* out) {
+size_t floatToMask(const uint8_t* floats, size_t n, uint8_t* out) {
+  size_t unknown = 0;
   for (size_t i = 0; i < n; ++i) {
     float value;
     std::memcpy(&value, floats + i * sizeof value, sizeof value);
-    out[i] = value >= 0.5f ? 1 : 0;
+    const bool known = std::isfinite(value);
+    out[i] = !known || value >= 0.5f ? 1 : 0;
+    unknown += !known;
   }
+  return unknown;
 }
 
 }  // namespace

@@ -35,9 +35,10 @@ struct ExrKernels {
   /// Nearest half, ties to even, overflow to infinity; NaN keeps the top ten bits of its payload,
   /// or gets payload 1 where these are zero. The same as Imath's conversion.
   void (*floatToHalf)(const float* in, size_t n, uint16_t* out);
-  /// 1 where one of n floats, which may lie at any address, is at least 0.5, else 0, of NaN as
-  /// well: a hard mask.
-  void (*floatToMask)(const uint8_t* floats, size_t n, uint8_t* out);
+  /// 1 where one of n floats, which may lie at any address, is at least 0.5, else 0: a hard mask.
+  /// NaN and Inf of either sign, of which nothing is known, are 1 (lit: no shadow is made up);
+  /// gives how many they are.
+  size_t (*floatToMask)(const uint8_t* floats, size_t n, uint8_t* out);
 };
 
 /// One value at a time; the oracle of the others, and what runs where there is no AVX2.

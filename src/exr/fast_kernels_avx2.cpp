@@ -126,23 +126,39 @@ KAGEFUDE_AVX2 void floatToHalf(const float* in, size_t n, uint16_t* out) {
   plainExrKernels().floatToHalf(in + i, n - i, out + i);
 }
 
-/// All bits set in each of 8 values of at least 0.5.
-KAGEFUDE_AVX2 __m256i atLeastHalf(const uint8_t* floats) {
-  const __m256 values = _mm256_castsi256_ps(load(floats));
-  return _mm256_castps_si256(_mm256_cmp_ps(values, _mm256_set1_ps(0.5f), _CMP_GE_OQ));
+KAGEFUDE_AVX2 __m256 eightFloats(const uint8_t* floats) {
+  return _mm256_castsi256_ps(load(floats));
 }
 
-KAGEFUDE_AVX2 void floatToMask(const uint8_t* floats, size_t n, uint8_t* out) {
+/// All bits set in each of 8 values of at least 0.5.
+KAGEFUDE_AVX2 __m256i atLeastHalf(const uint8_t* floats) {
+  return _mm256_castps_si256(_mm256_cmp_ps(eightFloats(floats), _mm256_set1_ps(0.5f), _CMP_GE_OQ));
+}
+
+/// Whether any of 32 values is NaN or Inf, or all are so large that their sum is: one test for all.
+KAGEFUDE_AVX2 bool mayBeUnknown(const uint8_t* floats) {
+  const __m256 sum =
+      _mm256_add_ps(_mm256_add_ps(eightFloats(floats), eightFloats(floats + 32)),
+                    _mm256_add_ps(eightFloats(floats + 64), eightFloats(floats + 96)));
+  const __m256 rest = _mm256_sub_ps(sum, sum);  // 0, or NaN
+  return _mm256_movemask_ps(_mm256_cmp_ps(rest, rest, _CMP_UNORD_Q)) != 0;
+}
+
+KAGEFUDE_AVX2 size_t floatToMask(const uint8_t* floats, size_t n, uint8_t* out) {
   const __m256i order = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);  // packing goes by lanes
-  size_t i = 0;
+  size_t i = 0, unknown = 0;
   for (; i + 32 <= n; i += 32) {
     const uint8_t* in = floats + 4 * i;
+    if (mayBeUnknown(in)) {
+      unknown += plainExrKernels().floatToMask(in, 32, out + i);
+      continue;
+    }
     const __m256i first = _mm256_packs_epi32(atLeastHalf(in), atLeastHalf(in + 32));
     const __m256i second = _mm256_packs_epi32(atLeastHalf(in + 64), atLeastHalf(in + 96));
     const __m256i bytes = _mm256_permutevar8x32_epi32(_mm256_packs_epi16(first, second), order);
     store(out + i, _mm256_and_si256(bytes, _mm256_set1_epi8(1)));
   }
-  plainExrKernels().floatToMask(floats + 4 * i, n - i, out + i);
+  return unknown + plainExrKernels().floatToMask(floats + 4 * i, n - i, out + i);
 }
 
 /// F16C, which clang 14 does not know by name.

@@ -42,10 +42,11 @@ struct ExrPart {
 ///   samples rounded to the nearest float.
 /// - View<uint32_t>: the bits of float (Cryptomatte ids) or uint samples.
 /// - View<uint16_t>: the bits of half samples.
-/// - View<uint8_t>: a hard mask of any samples, 1 where they are at least 0.5, else 0.
+/// - View<uint8_t>: a hard mask of any samples, 1 where they are at least 0.5, NaN or Inf, else 0.
 struct ExrTarget {
   int channel = 0;
   std::variant<View<float>, View<uint32_t>, View<uint16_t>, View<uint8_t>> pixels;
+  size_t* unknown = nullptr;  ///< of a mask: here the number of NaN and Inf is added
 };
 
 /// A scanline EXR file of lossless zip, zips, rle or no compression, read straight into planes:

@@ -36,14 +36,19 @@ class HeaderWalk {
     constexpr uint32_t magic = 20000630, severalParts = 0x1000;
     const uint32_t first = word(), flags = word();
     if (!file_ || first != magic) return;
-    bool more = true;
-    while (more && header()) more = (flags & severalParts) != 0;
+    const bool several = (flags & severalParts) != 0;
+    for (bool more = true; more; more = several && more) {
+      more = header();
+      if (!disorder_.empty()) refuseDisorder(several);
+      ++part_;
+    }
   }
 
  private:
   /// One part's attributes; false at the empty header that ends a list of parts, and at trouble.
   bool header() {
     bool any = false;
+    partName_.clear();
     for (std::string name = text(); file_ && !name.empty(); name = text()) {
       any = true;
       const std::string type = text();
@@ -55,7 +60,9 @@ class HeaderWalk {
             "{} cannot be read as an EXR file: its attribute {} claims {} bytes, and the "
             "file has {}",
             path_.string(), name, size, bytes_));
+      if (name == "name" && type == "string") noteName(size);
       const uint64_t taken = takenBytes(type, size);
+      if (name == "channels") disorder_ = listed_;
       if (taken != size)
         throw InputError(
             fmt::format("{} cannot be read as an EXR file: its attribute {} has {} "
@@ -81,10 +88,21 @@ class HeaderWalk {
     if (type == "stringvector") return textBytes(size);
     return size;
   }
+  /// Pixels lie in the order of their channels' names (strcmp's), which libraries take for granted:
+  /// they sort the list, and would give each channel another one's pixels.
   uint64_t channelBytes() {
     constexpr uint64_t afterName = 16;
     uint64_t bytes = 1;
+    std::string before;
+    listed_.clear();
     for (std::string name = text(); file_ && !name.empty(); name = text()) {
+      if (name == before) listed_ = fmt::format("lists channel {} twice", name);
+      if (name < before && listed_.empty())
+        listed_ = fmt::format(
+            "lists channel {} after {}, but an EXR has its channels, and their "
+            "pixels, in the order of the names",
+            name, before);
+      before = name;
       bytes += name.size() + 1 + afterName;
       file_.seekg(afterName, std::ios::cur);
     }
@@ -98,6 +116,19 @@ class HeaderWalk {
       file_.seekg(static_cast<std::streamoff>(length), std::ios::cur);
     }
     return bytes;
+  }
+
+  void noteName(uint32_t size) {
+    const auto at = file_.tellg();
+    partName_.resize(std::min<size_t>(size, longestName));
+    file_.read(partName_.data(), static_cast<std::streamsize>(partName_.size()));
+    file_.seekg(at);
+  }
+  [[noreturn]] void refuseDisorder(bool several) const {
+    const std::string name = partName_.empty() ? "" : fmt::format(" ({})", partName_);
+    const std::string part = several ? fmt::format("its part {}{}", part_ + 1, name) : "it";
+    throw InputError(fmt::format("{} cannot be read as an EXR file: {} {}; write it again",
+                                 path_.string(), part, disorder_));
   }
 
   uint32_t word() {
@@ -118,6 +149,10 @@ class HeaderWalk {
   const std::filesystem::path& path_;
   uint64_t bytes_;
   std::ifstream file_;
+  int part_ = 0;
+  std::string partName_;
+  std::string listed_;    ///< what is wrong with the list of channels that was walked over last
+  std::string disorder_;  ///< what is wrong with the part's own list
 };
 
 void ignoreMessage(exr_const_context_t, exr_result_t, const char*) {}

@@ -92,7 +92,8 @@ void readPart(const Part& part, const Imf::FrameBuffer& buffer) {
 ExrTarget fastTarget(const ExrPart& part, const Window& window, const PlaneTarget& target) {
   const int channel = part.channelIndex(target.channel->nameInPart);
   const int w = window.width, h = window.height;
-  if (target.mask) return {channel, View<uint8_t>(static_cast<uint8_t*>(target.pixels), w, h)};
+  if (target.mask)
+    return {channel, View<uint8_t>(static_cast<uint8_t*>(target.pixels), w, h), target.unknown};
   if (target.type == PixelType::half) {
     return {channel, View<uint16_t>(static_cast<uint16_t*>(target.pixels), w, h)};
   }
@@ -122,19 +123,21 @@ bool readFast(const FastExr& fast, const ImageFile& file, int number,
   return true;
 }
 
-void toMask(const float* values, size_t pixels, void* mask) {
-  fastestExrKernels().floatToMask(reinterpret_cast<const uint8_t*>(values), pixels,
-                                  static_cast<uint8_t*>(mask));
+void toMask(const float* values, size_t pixels, const PlaneTarget& mask) {
+  const size_t unknown = fastestExrKernels().floatToMask(
+      reinterpret_cast<const uint8_t*>(values), pixels, static_cast<uint8_t*>(mask.pixels));
+  if (mask.unknown) *mask.unknown += unknown;
 }
 
 // `from` has the channel's own type, or both have the same.
 void copyPlane(const PlaneTarget& from, const PlaneTarget& to, size_t pixels) {
   if (from.type == to.type && from.mask == to.mask) {
     std::memcpy(to.pixels, from.pixels, pixels * bytesOf(from));
+    if (to.unknown && from.unknown) *to.unknown = *from.unknown;
   } else if (to.mask) {
     std::vector<float> values(pixels);
     copyPlane(from, {to.channel, PixelType::single, values.data()}, pixels);
-    toMask(values.data(), pixels, to.pixels);
+    toMask(values.data(), pixels, to);
   } else if (from.type == PixelType::half) {
     const auto* halves = static_cast<const uint16_t*>(from.pixels);
     std::transform(halves, halves + pixels, static_cast<float*>(to.pixels), imath_half_to_float);
@@ -145,7 +148,7 @@ void copyPlane(const PlaneTarget& from, const PlaneTarget& to, size_t pixels) {
   }
 }
 
-// Lays a part's own window into a plane of the file's, with zeros around it.
+// Lays a part's own window into a plane of the file's, with zeros around it, round a mask ones.
 void placePlane(const ImageFile& file, const PlaneTarget& own, const PlaneTarget& whole) {
   const Window& from = partWindow(file, *own.channel);
   const Window& to = file.dataWindow;
@@ -154,7 +157,7 @@ void placePlane(const ImageFile& file, const PlaneTarget& own, const PlaneTarget
   auto* target = static_cast<std::byte*>(whole.pixels);
   const size_t sourceRow = static_cast<size_t>(from.width) * bytes;
   const size_t targetRow = static_cast<size_t>(to.width) * bytes;
-  std::memset(target, 0, targetRow * static_cast<size_t>(to.height));
+  std::memset(target, whole.mask ? 1 : 0, targetRow * static_cast<size_t>(to.height));
   target +=
       static_cast<size_t>(from.y - to.y) * targetRow + static_cast<size_t>(from.x - to.x) * bytes;
   for (int y = 0; y < from.height; ++y, source += sourceRow, target += targetRow)
@@ -178,17 +181,15 @@ void readJoined(const ImageFile& file, std::span<const PlaneTarget> targets) {
 // For readers that know no masks: reads these as floats first.
 template <class Read>
 void readMasksAsFloats(const ImageFile& file, std::vector<PlaneTarget> targets, const Read& read) {
-  std::vector<std::pair<void*, Floats>> masks;
+  std::vector<std::pair<PlaneTarget, Floats>> masks;
   for (PlaneTarget& target : targets) {
     if (!target.mask) continue;
     const Window& window = partWindow(file, *target.channel);
-    masks.emplace_back(target.pixels, Floats(window.width, window.height));
+    masks.emplace_back(target, Floats(window.width, window.height));
     target = {target.channel, PixelType::single, masks.back().second.row(0)};
   }
   read(targets);
-  for (const auto& [pixels, values] : masks)
-    toMask(values.row(0),
-           static_cast<size_t>(values.width()) * static_cast<size_t>(values.height()), pixels);
+  for (const auto& [mask, values] : masks) toMask(values.row(0), values.view().pixels(), mask);
 }
 
 // Reads one part with whatever reads files of its kind. `fast` is that of the part's file.
@@ -266,10 +267,11 @@ void ChannelReader::raw(const std::string& channelName, RawPlane& plane) {
   targets_.push_back({channel, channel->type, pixels});
 }
 
-void ChannelReader::mask(const std::string& channelName, Bytes& plane) {
+void ChannelReader::mask(const std::string& channelName, Bytes& plane, size_t& unknown) {
   const Channel* channel = &requireChannel(file_, channelName);
   plane = Bytes(file_.dataWindow.width, file_.dataWindow.height);
-  targets_.push_back({channel, PixelType::single, plane.row(0), true});
+  unknown = 0;
+  targets_.push_back({channel, PixelType::single, plane.row(0), true, &unknown});
 }
 
 void ChannelReader::read() {

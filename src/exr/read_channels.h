@@ -10,9 +10,9 @@
 namespace kagefude {
 
 // All readers decode only what is asked for, straight into planes of the file's data window's size
-// (its top-left pixel is (0,0)); a channel whose part covers less is 0 around it. All throw
-// InputError when a channel does not exist (naming the nearest) or when the file is truncated or
-// damaged. An empty list gives an empty result.
+// (its top-left pixel is (0,0)); a channel whose part covers less is 0 around it, a mask 1. All
+// throw InputError when a channel does not exist (naming the nearest) or when the file is truncated
+// or damaged. An empty list gives an empty result.
 
 /// One plane a name, in the order of the names. half and uint become float; half exactly, uint
 /// rounded to the nearest float above 2^24.
@@ -42,9 +42,10 @@ struct PlaneTarget {
   const Channel* channel = nullptr;
   PixelType type = PixelType::single;
   void* pixels = nullptr;
-  /// Then a pixel is a byte, 1 where the channel's value is at least 0.5, else 0. A PartSource
-  /// never sees such a target.
+  /// Then a pixel is a byte, 1 where the channel's value is at least 0.5, NaN or Inf, else 0. A
+  /// PartSource never sees such a target.
   bool mask = false;
+  size_t* unknown = nullptr;  ///< of a mask: here the number of its NaN and Inf is added
 };
 
 /// Collects channels of one frame so that each chunk of the file is decoded once for all of them.
@@ -57,8 +58,10 @@ class ChannelReader {
   void floats(const std::string& channelName, Floats& plane);
   void bits(const std::string& channelName, Labels& plane);
   void raw(const std::string& channelName, RawPlane& plane);
-  /// A hard mask: 1 where the channel is at least 0.5, else 0, where it is NaN as well.
-  void mask(const std::string& channelName, Bytes& plane);
+  /// A hard mask: 1 where the channel is at least 0.5, else 0. Where it is NaN or Inf, and beyond
+  /// its part's window, nothing is known: that is 1, lit, for no shadow shall be made up. read()
+  /// sets `unknown`, which must live until then, to the number of its NaN and Inf.
+  void mask(const std::string& channelName, Bytes& plane, size_t& unknown);
   void read();
   const ImageFile& file() const { return file_; }
 

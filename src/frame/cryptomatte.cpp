@@ -37,14 +37,26 @@ std::map<std::string, Levels> levelsByStem(const ImageFile& file) {
   return stems;
 }
 
-// Levels count from 00 without a gap; each brings one or two ranks.
+void breakOff(Cryptomatte& found, std::string_view lacks) {
+  found.fault = fmt::format("Cryptomatte {} lacks the {} of rank {}", found.name, lacks,
+                            found.idChannels.size() + 1);
+}
+
+// Levels count from 00 without a gap; each brings two ranks, the last one or two.
 Cryptomatte assemble(std::string key, std::string name, const Levels& levels) {
-  Cryptomatte found{std::move(key), std::move(name), {}, {}};
+  Cryptomatte found{std::move(key), std::move(name), {}, {}, 0, ""};
   int expected = 0;
   for (const auto& [number, level] : levels) {
-    if (number != expected++) break;
+    if (number != expected++) {
+      breakOff(found, "channels");
+      break;
+    }
     for (size_t c = 0; c < 4; c += 2) {
-      if (level[c].empty() || level[c + 1].empty()) return found;
+      const bool noId = level[c].empty(), noCoverage = level[c + 1].empty();
+      const bool atEnd = c == 2 && number == levels.rbegin()->first;
+      if (noId && noCoverage && !atEnd) breakOff(found, "channels");
+      if (noId != noCoverage) breakOff(found, noId ? "id channel" : "coverage channel");
+      if (noId || noCoverage) return found;
       found.idChannels.push_back(level[c]);
       found.coverageChannels.push_back(level[c + 1]);
     }
@@ -131,6 +143,26 @@ void checkConvention(const ImageFile& file, const Cryptomatte& found) {
   check("conversion", "uint32_to_float32");
 }
 
+// All of a file, with those of which no rank is left.
+std::vector<Cryptomatte> assembleAll(const ImageFile& file) {
+  auto stems = levelsByStem(file);
+  std::vector<Cryptomatte> all;
+  const std::vector<Description> described = describedCryptomattes(file);
+  // A part's header speaks for its own channels first, then for channels anywhere.
+  for (const bool ownPart : {true, false})
+    for (const Description& description : described) {
+      const auto stem = findStem(file, stems, description, ownPart);
+      if (stem == stems.end()) continue;
+      all.push_back(assemble(description.key, stem->first, stem->second));
+      all.back().part = description.part;
+      stems.erase(stem);
+    }
+  for (const auto& [stem, levels] : stems) {
+    if (looksLikeCryptomatte(stem)) all.push_back(assemble("", stem, levels));
+  }
+  return all;
+}
+
 Cryptomatte chooseCryptomatte(const ImageFile& file, std::string_view name) {
   std::vector<Cryptomatte> partly;
   std::vector<std::string> known;
@@ -153,22 +185,14 @@ Cryptomatte chooseCryptomatte(const ImageFile& file, std::string_view name) {
 }  // namespace
 
 std::vector<Cryptomatte> listCryptomattes(const ImageFile& file) {
-  auto stems = levelsByStem(file);
-  std::vector<Cryptomatte> all;
-  const std::vector<Description> described = describedCryptomattes(file);
-  // A part's header speaks for its own channels first, then for channels anywhere.
-  for (const bool ownPart : {true, false})
-    for (const Description& description : described) {
-      const auto stem = findStem(file, stems, description, ownPart);
-      if (stem == stems.end()) continue;
-      all.push_back(assemble(description.key, stem->first, stem->second));
-      all.back().part = description.part;
-      stems.erase(stem);
-    }
-  for (const auto& [stem, levels] : stems) {
-    if (looksLikeCryptomatte(stem)) all.push_back(assemble("", stem, levels));
-  }
+  std::vector<Cryptomatte> all = assembleAll(file);
   std::erase_if(all, [](const Cryptomatte& found) { return found.idChannels.empty(); });
+  return all;
+}
+
+std::vector<Cryptomatte> brokenCryptomattes(const ImageFile& file) {
+  std::vector<Cryptomatte> all = assembleAll(file);
+  std::erase_if(all, [](const Cryptomatte& found) { return found.fault.empty(); });
   return all;
 }
 

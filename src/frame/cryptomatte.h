@@ -27,12 +27,16 @@ struct Cryptomatte {
   std::vector<std::string> idChannels;        ///< by rank
   std::vector<std::string> coverageChannels;  ///< by rank
   int part = 0;                               ///< whose header describes it
+  std::string fault;                          ///< which channel is missing, in a sentence; or ""
 };
 
 /// All Cryptomattes of a file: those that the metadata names and that have channels, then those
 /// that only channel names show (a layer of r, g, b, a that ends in two digits, with "crypto" in
 /// its name, in any case). Throws nothing.
 std::vector<Cryptomatte> listCryptomattes(const ImageFile& file);
+
+/// Those of a file that lack channels, with what is left of them, which may be no rank at all.
+std::vector<Cryptomatte> brokenCryptomattes(const ImageFile& file);
 
 /// Names by id, from the manifest in the header or in the file beside the image that it names. A
 /// missing, broken or misplaced (absolute path, "..") manifest gives no names and a warning.

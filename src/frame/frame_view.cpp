@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfMultiView.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>

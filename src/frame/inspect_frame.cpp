@@ -8,8 +8,10 @@
 #include "base/error.h"
 #include "frame/aov_names.h"
 #include "frame/cryptomatte.h"
+#include "frame/foreign_json.h"
 #include "frame/frame_view.h"
 #include "frame/lossy_passes.h"
+#include "frame/mean_normal_pass.h"
 #include "frame/rebuild_positions.h"
 #include "frame/sidecar.h"
 #include "picture/frame_picture.h"
@@ -58,6 +60,15 @@ bool isFound(const Inspection& inspection, AovKind kind) {
   return std::any_of(inspection.aovs.begin(), inspection.aovs.end(), [&](const InspectedAov& aov) {
     return aov.purpose == aovName(kind) && !aov.pass.empty();
   });
+}
+
+// Only the exporter makes them, so nobody else's frames lack them.
+void addMeanNormal(Inspection& inspection, const ImageFile& file, const AovNames& names) {
+  if (!isFound(inspection, AovKind::normal)) return;
+  MeanNormalPass found = findMeanNormal(file, *findAov(file, names, AovKind::normal));
+  inspection.aovs.push_back({"MeanNormal", "", std::move(found.name)});
+  if (!found.fault.empty())
+    add(inspection, FindingKind::warning, std::move(found.fault), "export the frame again");
 }
 
 // Positions may be rebuilt: what from, or why not.
@@ -111,6 +122,9 @@ void addLossyPasses(Inspection& inspection, const ImageFile& file) {
 }
 
 void addCryptomattes(Inspection& inspection, const ImageFile& file) {
+  for (const Cryptomatte& broken : brokenCryptomattes(file))
+    add(inspection, FindingKind::warning,
+        broken.fault + ", so that rank and those after it are not read", "export the frame again");
   for (const Cryptomatte& found : listCryptomattes(file)) {
     const Manifest manifest = readManifest(file, found);
     InspectedCryptomatte shown{found.name, static_cast<int>(found.idChannels.size()), {}};
@@ -196,8 +210,10 @@ std::optional<Sidecar> trySidecar(Inspection& inspection) {
   try {
     auto sidecar = findSidecar(inspection.path);
     if (!sidecar) {
+      const std::string foreign = foreignJson(inspection.path);
       add(inspection, FindingKind::missing,
-          "there is no JSON beside the frame, so lights, camera and objects are not known",
+          (foreign.empty() ? "there is no JSON beside the frame" : foreign) +
+              ", so lights, camera and objects are not known",
           "export the frame with the Blender add-on, or give lights and camera in the look");
     }
     return sidecar;
@@ -223,7 +239,9 @@ Inspection inspectFrame(const std::filesystem::path& path, const AovNames& names
   inspection.channelCount = static_cast<int>(whole.channels.size());
   const auto sidecar = trySidecar(inspection);
   addLayers(inspection, whole);
-  addAovs(inspection, file, sidecar ? namesWith(names, *sidecar) : names);
+  const AovNames own = sidecar ? namesWith(names, *sidecar) : names;
+  addAovs(inspection, file, own);
+  if (sidecar) addMeanNormal(inspection, file, own);
   addPositions(inspection, file, names, sidecar);
   addMissing(inspection);
   addCryptomattes(inspection, file);

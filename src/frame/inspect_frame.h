@@ -52,7 +52,7 @@ struct InspectedObject {
 /// Which pass serves which purpose.
 struct InspectedAov {
   std::string purpose;  ///< "Position"
-  std::string key;      ///< "frame.position"
+  std::string key;      ///< "frame.position"; "" where no look can name it
   std::string pass;     ///< "" when not found
 };
 

@@ -37,8 +37,12 @@ nlohmann::json JsonPlace::parseFile(const std::filesystem::path& path) {
   try {
     return nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
-    throw InputError(fmt::format("{} is not valid JSON: trouble at byte {} of {}", path.string(),
-                                 error.byte, text.size()));
+    const bool ended = error.byte > text.size();
+    throw InputError(
+        fmt::format("{} is not valid JSON: {}", path.string(),
+                    text.empty() ? "it is empty"
+                    : ended      ? fmt::format("it ends after {} bytes, too early", text.size())
+                            : fmt::format("trouble at byte {} of {}", error.byte, text.size())));
   } catch (const nlohmann::json::exception&) {
     throw InputError(
         fmt::format("{} is not valid JSON: a number in it is too large", path.string()));
@@ -59,6 +63,9 @@ bool JsonPlace::has(std::string_view key) const {
 JsonPlace JsonPlace::operator[](std::string_view key) const {
   const std::string place = place_.empty() ? std::string(key) : fmt::format("{}.{}", place_, key);
   if (!has(key)) {
+    if (value_->contains(std::string(key)))
+      throw InputError(
+          fmt::format("{}: {} is null, but a value is needed", file_->string(), place));
     std::vector<std::string> known;
     for (const auto& item : value_->items()) known.push_back(item.key());
     throw InputError(

@@ -1,6 +1,7 @@
 #include "frame/normal_reading.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <sstream>

@@ -1,6 +1,9 @@
 #include "frame/sanitise.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -12,6 +15,12 @@ namespace {
 bool finiteAt(const Vec3Plane& planes, int x, int y) {
   return std::isfinite(planes.x(x, y)) && std::isfinite(planes.y(x, y)) &&
          std::isfinite(planes.z(x, y));
+}
+
+// NaN of either sign, or -Inf: what lies above Inf of its sign, and -Inf itself.
+bool isNoDepth(float texel) {
+  const auto bits = std::bit_cast<int32_t>(texel);
+  return (bits > 0x7f800000) | ((bits < 0) & (bits >= -0x00800000));
 }
 
 // Counts are kept by row and summed in order, so nothing is shared between threads.
@@ -59,21 +68,30 @@ size_t clearNonFiniteColour(Vec3Plane& colour, View<float> alpha) {
   });
 }
 
-size_t clearNonFiniteCoverage(std::span<Floats> ranks) {
+size_t clearImpossibleCoverage(std::span<Floats> ranks) {
   if (ranks.empty()) return 0;
+  constexpr float least = -0.5f, most = 1.5f;
   return countRows(ranks.front().height(), [&](int y) {
     size_t count = 0;
     for (int x = 0; x < ranks.front().width(); ++x) {
       bool good = true;
-      for (size_t rank = 0; rank < ranks.size(); ++rank) {
-        float& coverage = ranks[rank](x, y);
-        if (std::isfinite(coverage)) continue;
-        coverage = rank == 0 ? 1.0f : 0.0f;
-        good = false;
-      }
-      count += good ? 0 : 1;
+      for (const Floats& rank : ranks) good = good && rank(x, y) >= least && rank(x, y) <= most;
+      if (good) continue;
+      for (Floats& rank : ranks) rank(x, y) = 0.0f;
+      ranks.front()(x, y) = 1.0f;
+      ++count;
     }
     return count;
+  });
+}
+
+size_t clearNoDepth(View<float> depth) {
+  return countRows(depth.height, [&](int y) {
+    float* const row = depth.row(y);
+    int count = 0;  // alone in its loop, of whole numbers, which then vectorises
+    for (int x = 0; x < depth.width; ++x) count += isNoDepth(row[x]);
+    if (count > 0) std::replace_if(row, row + depth.width, isNoDepth, 1e10f);
+    return static_cast<size_t>(count);
   });
 }
 

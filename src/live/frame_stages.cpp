@@ -206,6 +206,8 @@ StagedFrame FrameStages::compose(const Look& look, const Made<StripSet>& strips,
   paint(look, strips, plan, frame, run);
   const std::vector<std::string>& doubts = frame.styles->warnings;
   frame.warnings.insert(frame.warnings.end(), doubts.begin(), doubts.end());
+  for (std::string& warning : edgeWarnings(*planes, frame.styles->surfaces))
+    frame.warnings.push_back(std::move(warning));
   return frame;
 }
 

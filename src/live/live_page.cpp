@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -31,7 +32,7 @@ std::string textOf(const HttpRequest& request, const std::string& name,
   return given == request.query.end() ? otherwise : given->second;
 }
 
-/// A query's number, or what stands for none. Throws InputError.
+/// A query's number, which is finite, or what stands for none. Throws InputError.
 template <class Number>
 Number numberOf(const HttpRequest& request, const std::string& name, Number otherwise) {
   const auto given = request.query.find(name);
@@ -39,8 +40,9 @@ Number numberOf(const HttpRequest& request, const std::string& name, Number othe
   const std::string& text = given->second;
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw InputError(fmt::format("{} must be a number", name));
+  if (error != std::errc() || end != text.data() + text.size() ||
+      !std::isfinite(static_cast<double>(value)))
+    throw InputError(fmt::format("{} must be a number, but is \"{}\"", name, text));
   return value;
 }
 
@@ -150,10 +152,18 @@ HttpResponse withPixels(Json state, const ShownPixels& pixels, const HttpRequest
   return response;
 }
 
+/// In stops; beyond these every picture is black or white.
+float exposureOf(const HttpRequest& request) {
+  constexpr float most = 100;
+  const auto exposure = numberOf<float>(request, "exposure", 0);
+  if (std::abs(exposure) > most)
+    throw InputError(fmt::format("exposure must be -{0} to {0} stops, but is {1}", most, exposure));
+  return exposure;
+}
+
 HttpResponse picture(const LiveSession& session, const HttpRequest& request) {
   const auto seen = numberOf<uint64_t>(request, "seen", 0);
-  const Viewing viewing{numberOf<float>(request, "exposure", 0), textOf(request, "display"),
-                        textOf(request, "view")};
+  const Viewing viewing{exposureOf(request), textOf(request, "display"), textOf(request, "view")};
   const LiveView view = session.view(seen, longestPoll);
   ShownPixels pixels;
   if (view.version > seen && view.picture)
@@ -217,11 +227,21 @@ HttpResponse saved(const LiveSession& session, const HttpRequest& request) {
   return json({{"before", session.save(overrides, &entries)}});
 }
 
+/// The number of an input. A JSON's number may be none: negative, broken or beyond any integer.
+size_t inputOf(const Json& wanted) {
+  const auto given = wanted.find("input");
+  if (given == wanted.end()) return 0;
+  if (!given->is_number_unsigned())
+    throw InputError(fmt::format("input must be a whole number from 0, but is {}",
+                                 given->dump(-1, ' ', true, Json::error_handler_t::replace)));
+  return given->get<size_t>();
+}
+
 HttpResponse changed(LiveSession& session, const HttpRequest& request) {
   const Json wanted = Json::parse(request.body);
   LiveChange change;
   change.overrides = overridesOf(wanted);
-  change.input = wanted.value("input", size_t{0});
+  change.input = inputOf(wanted);
   return json({{"change", session.change(std::move(change))}});
 }
 

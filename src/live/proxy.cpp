@@ -88,10 +88,10 @@ FramePlanes sampleFrame(const FramePlanes& planes, int step) {
   result.casting = planes.casting;
   // What is doubted is doubted about the whole frame.
   result.warnings = planes.warnings;
+  result.meanWarnings = planes.meanWarnings;
   result.badPixels = planes.badPixels;
   result.badBeauty = planes.badBeauty;
   result.badAlbedo = planes.badAlbedo;
-  result.badCoverage = planes.badCoverage;
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "look/parse_toml.h"
+#include "look/read_section.h"
 
 namespace kagefude {
 namespace {
@@ -60,13 +61,29 @@ toml::table& descend(toml::table& at, const OverrideStep& step, const std::strin
   return *node->as_table();
 }
 
-void insertValue(toml::table& section, const std::string& key, const std::string& value) {
-  const std::string source = "--set " + key;
+/// Read from TOML as well, so that messages know where it comes from.
+void insertText(toml::table& section, const std::string& key, const std::string& text,
+                const std::string& source) {
+  try {
+    toml::table parsed = parseToml("value = " + quoted(text), source);
+    section.insert_or_assign(key, std::move(*parsed.get("value")));
+  } catch (const toml::parse_error&) {  // no UTF-8, which a file's name may be
+    section.insert_or_assign(key, text);
+  }
+}
+
+/// `name` is the whole key as the user wrote it.
+void insertValue(toml::table& section, const std::string& name, const std::string& key,
+                 const std::string& value) {
+  const std::string source = "--set " + name;
   try {
     toml::table parsed = parseToml("value = " + value, source);
+    // What stands after a line break would be set by nobody.
+    if (parsed.size() != 1)
+      fail(name, "there is more than one value in it, on several lines; set each by itself");
     section.insert_or_assign(key, std::move(*parsed.get("value")));
   } catch (const toml::parse_error&) {
-    section.insert_or_assign(key, value);
+    insertText(section, key, value, source);
   }
 }
 
@@ -75,7 +92,8 @@ void insertValue(toml::table& section, const std::string& key, const std::string
 void setValue(toml::table& section, const std::string& text) {
   const size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) fail(text, "expected key=value");
-  insertValue(section, text.substr(0, equals), text.substr(equals + 1));
+  const std::string key = text.substr(0, equals);
+  insertValue(section, key, key, text.substr(equals + 1));
 }
 
 Override parseOverride(const std::string& text) {
@@ -105,7 +123,7 @@ void applyOverride(toml::table& look, const std::string& text) {
   toml::table* section = &look;
   for (size_t i = 0; i + 1 < given.path.size(); ++i)
     section = &descend(*section, given.path[i], text);
-  insertValue(*section, given.path.back().key, given.value);
+  insertValue(*section, text.substr(0, text.find('=')), given.path.back().key, given.value);
 }
 
 }  // namespace kagefude

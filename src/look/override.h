@@ -30,7 +30,8 @@ bool beginsEntry(const toml::table& look, const Override& given);
 /// Sets one "key.path=value" in a look that is already parsed; "style[1].brush.key=value" reaches
 /// into a list, of whose entries a single [style] is the first, and may begin a new one
 /// (beginsEntry). The value is TOML; what is not TOML is taken as a text. Throws LookError when the
-/// text has no '=', the path is malformed, or it leads through something that is no section.
+/// text has no '=', the path is malformed, or it leads through something that is no section, and
+/// when further lines of the value set something else.
 void applyOverride(toml::table& look, const std::string& text);
 
 /// The same for a single section: "key=value".

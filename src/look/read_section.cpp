@@ -98,6 +98,8 @@ Value valueFrom(const toml::node& node, const std::string& key, const Parameter&
   return {};
 }
 
+}  // namespace
+
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -109,11 +111,10 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-}  // namespace
-
 std::string placeOf(const toml::node& node) {
   const toml::source_region& source = node.source();
   const std::string file = source.path ? *source.path : std::string("look");
+  if (file.starts_with("--set ")) return file;  // its one line needs no number
   return source.begin.line ? fmt::format("{}:{}", file, source.begin.line) : file;
 }
 

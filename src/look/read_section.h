@@ -26,6 +26,9 @@ const toml::table* findSection(const toml::table& root, std::string_view name);
 void refuseOtherKeys(const toml::table& table, const std::string& where,
                      const std::vector<std::string>& known);
 
+/// A text as TOML spells it, on one line.
+std::string quoted(const std::string& text);
+
 /// A value as TOML spells it, for the resolved look and for `passes`.
 std::string spellValue(const Parameter& parameter, const Value& value);
 

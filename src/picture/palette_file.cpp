@@ -148,6 +148,20 @@ std::optional<V3f> colourOfHex(std::string_view word) {
   return colour;
 }
 
+/// What stands between commas, or between spaces; nothing between two commas is an empty word.
+std::vector<std::string> listedWords(const std::string& text) {
+  std::vector<std::string> words;
+  for (size_t at = 0; at <= text.size();) {
+    const size_t end = std::min(text.find(',', at), text.size());
+    std::istringstream between(text.substr(at, end - at));
+    const size_t before = words.size();
+    for (std::string word; between >> word;) words.push_back(word);
+    if (words.size() == before && text.find(',') != std::string::npos) words.emplace_back();
+    at = end + 1;
+  }
+  return words;
+}
+
 }  // namespace
 
 std::vector<V3f> readPalette(const std::filesystem::path& path) {
@@ -167,15 +181,12 @@ std::vector<V3f> readPalette(const std::filesystem::path& path) {
 
 std::vector<V3f> paletteFromText(const std::string& text) {
   std::vector<V3f> colours;
-  for (size_t at = 0; at < text.size();) {
-    const size_t end = std::min(text.find_first_of(", ", at), text.size());
-    const std::string word = text.substr(at, end - at);
-    at = end + 1;
-    if (word.empty()) continue;
+  for (const std::string& word : listedWords(text)) {
     const auto colour = colourOfHex(word);
     if (!colour)
       throw UsageError(fmt::format(
-          "--palette: {} is no colour; expected such as #8a3324, or a file .gpl or .ase", word));
+          "--palette: {} is no colour; expected such as #8a3324, or a file .gpl or .ase",
+          word.empty() ? "nothing between two commas, or beside one," : word));
     colours.push_back(*colour);
     if (colours.size() > mostColours)
       throw UsageError(fmt::format("--palette: more than {} colours", mostColours));

@@ -59,6 +59,20 @@ std::string reason(const nlohmann::json& answer, const std::filesystem::path& pa
   return printable(words.substr(0, longest));
 }
 
+/// Where the program that reads pictures is not there, the picture is what matters. A file that is
+/// called an EXR comes here only when it does not begin as one.
+WorkerLease readerOf(const std::filesystem::path& path) {
+  try {
+    return WorkerLease();
+  } catch (const InputError& problem) {
+    const bool exr = path.extension() == ".exr" || path.extension() == ".EXR";
+    throw InputError(fmt::format(
+        "{} {}: {}", path.string(),
+        exr ? "is no EXR file, and cannot be read as another picture" : "cannot be read",
+        problem.what()));
+  }
+}
+
 SharedPixels sharedPixels(const std::filesystem::path& path, size_t bytes) {
   try {
     return SharedPixels(bytes);
@@ -74,7 +88,7 @@ void PictureFile::refuse(const std::string& why) const {
 }
 
 PictureFile::PictureFile(const std::filesystem::path& path, int64_t mostPixels)
-    : path_(path), fileBytes_(requirePlainFile(path)) {
+    : path_(path), fileBytes_(requirePlainFile(path)), worker_(readerOf(path)) {
   // Absolute, so that no name looks like an option of a format or an address.
   const std::string name = std::filesystem::absolute(path).string();
   // Some decoders unpack the whole picture when it is opened.

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <stop_token>
 #include <thread>
@@ -44,6 +45,16 @@ class Interrupts {
   std::atomic<int> exitCode_{0};
   std::atomic<bool> finished_{false};
   std::thread watcher_;
+};
+
+/// For commands that write one file, or few: nothing is finished at a signal, what is half written
+/// goes and the process ends.
+class EndsAtOnce {
+ public:
+  EndsAtOnce() : interrupts_([](int code) { std::_Exit(code); }, std::chrono::milliseconds(0)) {}
+
+ private:
+  Interrupts interrupts_;
 };
 
 }  // namespace kagefude

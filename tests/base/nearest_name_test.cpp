@@ -18,6 +18,16 @@ TEST(NearestName, SaysNothingWhenNothingIsNear) {
   EXPECT_EQ(didYouMean("Cryptomatte", {"Depth"}), "");
 }
 
+// A missing "camera" was taken for "layers", and any letter for any other.
+TEST(NearestName, SaysNothingWhenAThirdIsOther) {
+  EXPECT_EQ(didYouMean("camera", {"layers", "lights"}), "");
+  EXPECT_EQ(didYouMean("R", {"B", "Z"}), "");
+  EXPECT_EQ(didYouMean("", {"B"}), "");
+  EXPECT_EQ(nearestName("r", {"B", "R"}), "R");
+  EXPECT_EQ(nearestName("Rm", {"Rim"}), "Rim");
+  EXPECT_EQ(nearestName("cemara", {"camera"}), "camera");
+}
+
 TEST(NearestName, ListsNames) {
   EXPECT_EQ(listNames({}), "none");
   EXPECT_EQ(listNames({"a"}), "a");

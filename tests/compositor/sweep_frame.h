@@ -58,10 +58,17 @@ class SweepFrame {
     for (const char* name : {"Emit.R", "Emit.G", "Emit.B"}) frame.plane(name)(x, y) = 0.02f;
   }
 
+  /// A disc that hides what the masks hide, and a card so low that they need not, over the ground.
   void writeDepthMap() const {
-    Floats depth(16, 16, 1e10f);
-    for (int y = 4; y < 12; ++y)
-      for (int x = 4; x < 12; ++x) depth(x, y) = x < 9 ? 5.0f : 7.5f;
+    Floats depth(16, 16, 9.0f);
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x) {
+        const float dx = float(x) - 2.4f, dy = float(y) - 9.0f;
+        if (dx * dx + dy * dy < 5)
+          depth(x, y) = 5.0f;
+        else if (x >= 4 && x < 12 && y >= 4 && y < 12)
+          depth(x, y) = 7.5f;
+      }
     frame.writeDepthMap("depth.exr", depth);
   }
 

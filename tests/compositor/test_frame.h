@@ -44,13 +44,13 @@ inline nlohmann::json lightJson(const std::string& name, const std::string& type
 inline nlohmann::json depthMapJson(const V3f& position, int size, double focal) {
   nlohmann::json lightFromWorld = identityRows();
   for (int k = 0; k < 3; ++k) lightFromWorld[k][3] = -position[k];
-  return {{"file", "depth.exr"},
-          {"channel", "Z"},
-          {"resolution", {size, size}},
-          {"projection", "perspective"},
-          {"light_from_world", lightFromWorld},
-          {"clip_from_light",
-           {{focal, 0, 0, 0}, {0, focal, 0, 0}, {0, 0, -1, -0.2}, {0, 0, -1, 0}}}};
+  return {
+      {"file", "depth.exr"},
+      {"channel", "Z"},
+      {"resolution", {size, size}},
+      {"projection", "perspective"},
+      {"light_from_world", lightFromWorld},
+      {"clip_from_light", {{focal, 0, 0, 0}, {0, focal, 0, 0}, {0, 0, -1, -0.2}, {0, 0, -1, 0}}}};
 }
 
 /// A frame of a few pixels, as a renderer and the exporter would leave it: an EXR and its JSON.
@@ -85,6 +85,16 @@ class TestFrame {
   /// The channel "ViewLayer.<name>".
   Floats& plane(const std::string& name, float value = 0.0f) {
     return channel("ViewLayer." + name, value);
+  }
+  /// Positions of a floor at z = 0 that is seen from above, eight pixels a unit round the origin.
+  void layFloor() {
+    const V3f corner(0.5f * static_cast<float>(width_ - 1), 0.5f * static_cast<float>(height_ - 1),
+                     0);
+    for (int y = 0; y < height_; ++y)
+      for (int x = 0; x < width_; ++x)
+        setVector(
+            "Position", x, y,
+            {(static_cast<float>(x) - corner.x) / 8, (corner.y - static_cast<float>(y)) / 8, 0});
   }
   void setVector(const std::string& name, int x, int y, const V3f& v) {
     plane(name + ".X")(x, y) = v.x;

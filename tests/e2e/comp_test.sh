@@ -93,6 +93,10 @@ expect_error 2 'required' comp "$look" "$data/shot.0001.exr"
 expect_error 2 'frames' comp "$look" "$data/shot.0001.exr" -o "$bad" --frames 1-abc
 expect_error 1 'none.exr' comp "$look" "$work/none.exr" -o "$bad"
 expect_error 1 'Postion' comp "$look" "$data/shot.0001.exr" -o "$bad" --set frame.position=Postion
+expect_error 2 'brush.contrast: there is more than one value' comp "$look" "$data/shot.0001.exr" -o "$bad" --set $'brush.contrast=1\nnonsense=7'
+cp "$data/shot.0001.exr" "$work/foreign.exr"
+echo '{"asset": 7}' >"$work/foreign.json"
+expect_error 1 "foreign.json beside the frame is none of kagefude's" comp "$look" "$work/foreign.exr" -o "$bad"
 head -c 300000 "$data/shot.0001.exr" >"$work/short.exr"
 cp "$data/shot.0001.json" "$work/short.json"
 expect_error 1 'short.exr' comp "$look" "$work/short.exr" -o "$bad"

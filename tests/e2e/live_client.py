@@ -90,6 +90,10 @@ for what, wanted, got in (
         ("a strip painted elsewhere", 400, ask("POST", BASE + "paint?name=..%2Fa.png", b'{"preset": "soft", "settings": []}')),
         ("a strip too large to paint", 400, ask("POST", BASE + "paint", b'{"preset": "soft", "settings": ["width=16384", "height=16384"]}')),
         ("a save of other entries", 400, ask("POST", BASE + "save", b'{"overrides": ["brush.contrast=0.9"], "onDisk": {"style": [], "light": ["Key"]}}')),
+        ("an input that is none", 400, ask("POST", BASE + "change", b'{"overrides": [], "input": 1e30}')),
+        ("an input below none", 400, ask("POST", BASE + "change", b'{"overrides": [], "input": -1}')),
+        ("an exposure that is none", 400, ask("GET", BASE + "picture?exposure=nan")),
+        ("a save of two values", 400, ask("POST", BASE + "save", b'{"overrides": ["brush.contrast=1\\nx=2"]}')),
         ("no JSON", 400, ask("POST", BASE + "change", b"overrides"))):
     expect(what, got[0], wanted)
 for strip in ("/etc/passwd", "../strip.png"):

@@ -63,6 +63,44 @@ check "something was left" [ -z "$(find "$work" -name 'none*' -o -name '.*.new' 
 check "--set fails" quiet "$kagefude" look new "$frame" -o "$work/set.toml" --preset oil --set brush.contrast=0.5
 check "--set is not in the look" grep -q "^contrast = 0.5" "$work/set.toml"
 
+# A full disk, or a preview that fails, leaves nothing that would stand in the way of the next try.
+nothing_but_fill() { [ -z "$(find "$1" -mindepth 1 ! -name fill)" ]; }
+if [ "$(id -u)" -eq 0 ] && mkdir "$work/small" && mount -t tmpfs -o size=1m tmpfs "$work/small" 2>/dev/null; then
+  for room in 0 4 16 64 128 256 400; do
+    head -c $((1024 * (1024 - room) - 4096)) /dev/zero >"$work/small/fill" || true
+    code=$(exit_code "$kagefude" look new "$frame" -o "$work/small/l.toml" --preset cel --preview "$work/small/p.png")
+    if [ "$code" = 0 ]; then rm -rf "$work/small"/[!f]*; fi
+    check "a full disk ($room KiB left) ends with $code: $(head -c 300 "$work/log")" [ "$code" -le 1 ]
+    check "a full disk ($room KiB left) keeps $(ls -A "$work/small")" nothing_but_fill "$work/small"
+  done
+  rm "$work/small/fill"
+  check "the disk's own error is not the cause" quiet "$kagefude" look new "$frame" -o "$work/small/l.toml" --preset cel
+  cp -r "$work/small" "$work/small_before"
+  head -c 2000000 /dev/zero >"$work/small/fill" 2>/dev/null || true
+  refused 1 "No space left" "$kagefude" look new "$frame" -o "$work/small/l.toml" --preset oil --force
+  rm "$work/small/fill"
+  check "--force on a full disk harms the look that is there" same_files "$work/small" "$work/small_before"
+  umount "$work/small"
+fi
+
+# An interrupt takes away what is half written.
+for signal in INT TERM HUP; do
+  for delay in 0.02 0.1 0.3; do
+    mkdir "$work/cut"
+    env --default-signal "$kagefude" strip make "$work/cut/k.png" --set width=1024 --set height=1024 >/dev/null 2>&1 &
+    sleep "$delay"
+    kill -"$signal" $! 2>/dev/null || true
+    wait $! || true
+    env --default-signal "$kagefude" look new "$frame" -o "$work/cut/l.toml" --preset oil >/dev/null 2>&1 &
+    sleep "$delay"
+    kill -"$signal" $! 2>/dev/null || true
+    wait $! || true
+    check "SIG$signal after $delay s leaves $(ls -A "$work/cut")" [ -z "$(find "$work/cut" -name '.*' ! -path "$work/cut")" ]
+    check "SIG$signal after $delay s leaves half a look" test -e "$work/cut/l.toml" -o ! -e "$work/cut/l_strips"
+    rm -r "$work/cut"
+  done
+done
+
 # Without albedo colours come from the picture, and that is said.
 oiiotool "$frame" --ch "$(oiiotool --info -v "$frame" | sed -n 's/.*channel list: //p' | tr ',' '\n' |
   sed 's/^ *//; s/ (.*//' | grep -v DiffCol | paste -sd,)" -o "$work/bare/shot.0001.exr" 2>/dev/null || true
@@ -115,5 +153,8 @@ rm "$work/mine.png" "$work/link.png"
 printf 'GIMP Palette\n#\n43 29\n' >"$work/bad.gpl"
 refused 1 "line 3" "$kagefude" strip make "$work/x.png" --palette "$work/bad.gpl"
 refused 2 "is no colour" "$kagefude" strip make "$work/x.png" --palette "#12,#345678"
+refused 2 "nothing between two commas" "$kagefude" strip make "$work/x.png" --palette "#2b1d38,,#ffffff"
+refused 2 "--set width: strip.width wants" "$kagefude" strip make "$work/x.png" --set 'width=8;height=8'
+refused 2 "more than one value" "$kagefude" strip make "$work/x.png" --set $'width=8\nheight=8'
 check "a refused strip was written" [ ! -e "$work/x.png" ]
 summary

@@ -117,7 +117,7 @@ std::vector<float> floatsToRound() {
   return floats;
 }
 
-TEST(ExrKernels, MasksAreOneFromOneHalfOn) {
+TEST(ExrKernels, MasksAreOneFromOneHalfOnAndWhereNothingIsKnown) {
   std::vector<float> floats = {
       0.5f, std::nextafter(0.5f, 0.0f), 1.0f, 0.0f, -1.0f, -0.0f, NAN, -NAN, INFINITY, -INFINITY};
   std::mt19937 generator(4);
@@ -128,11 +128,42 @@ TEST(ExrKernels, MasksAreOneFromOneHalfOn) {
   for (const ExrKernels* level : exrKernelLevels())
     for (const size_t n : lengths) {
       std::vector<uint8_t> mask(n + 1, 7);
-      level->floatToMask(odd.data() + 1, n, mask.data());
-      for (size_t i = 0; i < n; ++i)
-        ASSERT_EQ(mask[i], floats[i] >= 0.5f ? 1 : 0) << level->name << " " << floats[i];
+      const size_t unknown = level->floatToMask(odd.data() + 1, n, mask.data());
+      size_t expected = 0;
+      for (size_t i = 0; i < n; ++i) {
+        const bool known = std::isfinite(floats[i]);
+        ASSERT_EQ(mask[i], !known || floats[i] >= 0.5f ? 1 : 0) << level->name << " " << floats[i];
+        expected += !known;
+      }
+      EXPECT_EQ(unknown, expected) << level->name << " " << n;
       EXPECT_EQ(mask[n], 7) << n;
     }
+}
+
+TEST(ExrKernels, OneValueOfWhichNothingIsKnownIsFoundWhereverItStands) {
+  for (const ExrKernels* level : exrKernelLevels())
+    for (const float bad : {NAN, -NAN, INFINITY, -INFINITY})
+      for (size_t at = 0; at < 70; ++at) {
+        std::vector<float> floats(70, 0.0f);
+        floats[(at + 1) % 70] = 3e38f;
+        floats[at] = bad;
+        std::vector<uint8_t> mask(70, 7);
+        EXPECT_EQ(
+            level->floatToMask(reinterpret_cast<const uint8_t*>(floats.data()), 70, mask.data()),
+            1u)
+            << level->name << " " << at;
+        EXPECT_EQ(mask[at], 1) << level->name << " " << at;
+      }
+}
+
+TEST(ExrKernels, LargeValuesAreKnown) {
+  const std::vector<float> floats(64, 3e38f);
+  for (const ExrKernels* level : exrKernelLevels()) {
+    std::vector<uint8_t> mask(64, 7);
+    EXPECT_EQ(level->floatToMask(reinterpret_cast<const uint8_t*>(floats.data()), 64, mask.data()),
+              0u)
+        << level->name;
+  }
 }
 
 TEST(ExrKernels, FloatsRoundToTheHalfThatImathMakes) {

@@ -75,6 +75,63 @@ TEST(HeaderClaims, WhatIsNoExrIsLeftToTheLibrary) {
   }
 }
 
+/// A part's list of channels, and what ends its header.
+std::string listOf(const std::vector<std::string>& channels) {
+  std::string list;
+  for (const std::string& channel : channels) list += channel + '\0' + std::string(16, '\1');
+  list += '\0';
+  return attribute("channels", "chlist", uint32_t(list.size())) + list;
+}
+
+// Found by changing a byte of a channel's name: the library sorted the list, every channel after it
+// had another one's pixels, and the scrambled picture was taken for good.
+TEST(HeaderClaims, ChannelsThatAreNotInTheOrderOfTheirNamesAreRefused) {
+  const TestFolder folder;
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{"A", "Z", "G"}, "it lists channel G after Z"},
+      {{"a", "B"}, "it lists channel B after a"},
+      {{"A", "A"}, "it lists channel A twice"}};
+  for (const auto& [channels, said] : cases) {
+    const std::string file = folder.write("a.exr", start + listOf(channels) + '\0');
+    for (const std::string& message : {messageOf<InputError>([&] { openImage(file); }),
+                                       messageOf<InputError>([&] { FastExr::open(file); })})
+      EXPECT_NE(message.find("a.exr cannot be read as an EXR file: " + std::string(said)),
+                std::string::npos)
+          << message;
+  }
+  const std::string sorted = start + listOf({"A", "B.x", "B.y", "a", "b", "\xc3\xa4"}) + '\0';
+  EXPECT_NO_THROW(checkHeaderClaims(folder.write("b.exr", sorted), sorted.size()));
+}
+
+TEST(HeaderClaims, ChannelsOutOfOrderAreCalledByTheirPart) {
+  const TestFolder folder;
+  std::string several = start;
+  several[5] = '\x10';
+  const std::string name = attribute("name", "string", 3) + "rgb";
+  const std::string file =
+      folder.write("a.exr", several + listOf({"A", "B"}) + '\0' + listOf({"B", "A"}) + name + '\0');
+  EXPECT_NE(
+      messageOf<InputError>([&] { openImage(file); }).find("its part 2 (rgb) lists channel A"),
+      std::string::npos);
+}
+
+// Found by the same change in a whole file that both readers had read.
+TEST(HeaderClaims, AWholeFileIsReadBySortedNamesOnly) {
+  const TestFolder folder;
+  Floats plane(8, 8);
+  OutputImage image;
+  image.dataWindow = image.displayWindow = {0, 0, 8, 8};
+  for (const char* channel : {"Key.A", "Key.B", "Key.C"})
+    image.channels.push_back(floatChannel(channel, PixelType::half, plane));
+  writeExr(folder / "a.exr", image);
+  std::string bytes = TestFolder::read(folder / "a.exr");
+  bytes.replace(bytes.find("Key.B"), 5, "Key.D");
+  const std::string file = folder.write("a.exr", bytes);
+  EXPECT_NE(messageOf<InputError>([&] { openImage(file); }).find("channel Key.C after Key.D"),
+            std::string::npos);
+  EXPECT_THROW(FastExr::open(file), InputError);
+}
+
 std::string written(const TestFolder& folder, Compression compression) {
   Floats plane(64, 40);
   for (size_t i = 0; i < plane.view().pixels(); ++i) plane.row(0)[i] = static_cast<float>(i % 97);

@@ -36,6 +36,14 @@ TEST(InspectFrame, ShowsLayersPassesAndWhatIsMissing) {
   EXPECT_FALSE(mentions(inspection, FindingKind::missing, "no Normal pass"));
 }
 
+TEST(InspectFrame, AForeignJsonIsCalledSo) {
+  const TemporaryFolder folder;
+  writeChannels(folder / "a.exr", {"VL.Normal.X", "VL.Normal.Y", "VL.Normal.Z"});
+  writeText(folder / "a.json", "[]");
+  EXPECT_TRUE(mentions(inspectFrame(folder / "a.exr"), FindingKind::missing,
+                       "a.json beside the frame is none of kagefude's"));
+}
+
 TEST(InspectFrame, HalfPositionsAreAWarning) {
   const TemporaryFolder folder;
   writeChannels(folder / "a.exr", dataChannels, PixelType::half);

@@ -26,6 +26,20 @@ TEST(ClearNonFinite, TurnsBadPixelsIntoBackgroundAndCountsThemOnce) {
   EXPECT_EQ(position.view()(1, 20), V3f(1, 1, 1));
 }
 
+TEST(ClearNoDepth, NaNAndMinusInfHoldNothingAndInfIsNothingHit) {
+  Floats depth(3, 2, 5.0f);
+  depth(0, 0) = NAN;
+  depth(1, 1) = -INFINITY;
+  depth(2, 1) = INFINITY;
+  depth(1, 0) = -1.0f;
+  EXPECT_EQ(clearNoDepth(depth.view()), 2u);
+  EXPECT_EQ(depth(0, 0), 1e10f);
+  EXPECT_EQ(depth(1, 1), 1e10f);
+  EXPECT_EQ(depth(2, 1), INFINITY);
+  EXPECT_EQ(depth(1, 0), -1.0f);
+  EXPECT_EQ(clearNoDepth({}), 0u);
+}
+
 TEST(ClearNonFinite, WorksWithoutNormalsLabelsOrPixels) {
   Vec3Plane position(2, 1), none;
   position.x.fill(NAN);

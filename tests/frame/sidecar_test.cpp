@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frame/cryptomatte.h"
+#include "frame/foreign_json.h"
 #include "frame/frame_fixtures.h"
 
 namespace kagefude {
@@ -182,6 +183,26 @@ TEST_F(SidecarTest, SomeoneElsesJsonIsNotOurs) {
   EXPECT_THROW(findSidecar(folder_ / "shot.0012.exr"), InputError) << "ours may be cut";
 }
 
+// It was said not to be there.
+TEST_F(SidecarTest, SomeoneElsesJsonIsCalledSo) {
+  EXPECT_EQ(foreignJson(folder_ / "shot.0012.exr"), "");
+  for (const char* text : {"[]", "{}", "null", "5", R"({"asset": "x"})"}) {
+    writeText(folder_ / "shot.0012.json", text);
+    EXPECT_EQ(foreignJson(folder_ / "shot.0012.exr"),
+              "shot.0012.json beside the frame is none of kagefude's: it has no key \"kagefude\"");
+  }
+}
+
+TEST_F(SidecarTest, AJsonThatEndsTooEarlyIsCalledSo) {
+  const auto said = [&](const std::string& text) {
+    writeText(folder_ / "shot.0012.json", text);
+    return messageOf<InputError>([&] { findSidecar(folder_ / "shot.0012.exr"); });
+  };
+  expectContains(said(""), "shot.0012.json is not valid JSON: it is empty");
+  expectContains(said("{\"a\": "), "is not valid JSON: it ends after 6 bytes, too early");
+  expectContains(said("{\"a\": x}"), "is not valid JSON: trouble at byte 7 of 8");
+}
+
 TEST_F(SidecarTest, DepthIsBound) {
   writeText(folder_ / "shot.0012.json", std::string(1 << 20, '['));
   EXPECT_THROW(findSidecar(folder_ / "shot.0012.exr"), InputError);
@@ -216,6 +237,13 @@ TEST_F(SidecarTest, MissingKeysNameTheNearest) {
   changed["lights"][0]["raduis"] = 1;
   expectContains(messageOf<InputError>([&] { read(changed); }),
                  "lights[0].radius is missing (did you mean raduis?)");
+}
+
+// They were called missing, with themselves as what was meant.
+TEST_F(SidecarTest, KeysThatAreNullAreCalledSo) {
+  expectContains(messageWith("/lights/0/radius", nullptr),
+                 "lights[0].radius is null, but a value is needed");
+  expectContains(messageWith("/camera", nullptr), "camera is null, but a value is needed");
 }
 
 TEST_F(SidecarTest, OtherVersionsAreRefusedBeforeAllElse) {

@@ -242,5 +242,41 @@ TEST_F(Session, ThePageIsAnsweredOrRefusedInWords) {
     EXPECT_EQ(ask("POST", "/change", body), 400) << body;
 }
 
+// 1e30 took frame 0, and -1 was called 18446744073709551615.
+TEST_F(Session, NumbersThatAreNoneAreRefusedInWords) {
+  write("");
+  LiveSession session(settings());
+  for (const char* input : {"1e30", "-1", "0.5", "null", "true", "1e400", "18446744073709551616"}) {
+    const HttpResponse answer =
+        answerPage(session, {.method = "POST",
+                             .path = "/change",
+                             .body = fmt::format("{{\"overrides\": [], \"input\": {}}}", input)});
+    EXPECT_EQ(answer.status, 400) << input;
+    EXPECT_EQ(answer.body.find("1844674407370955161"), std::string::npos) << answer.body;
+  }
+  for (const char* exposure : {"nan", "inf", "-inf", "1e38", "101", "x", ""}) {
+    const HttpResponse answer = answerPage(
+        session, {.method = "GET", .path = "/picture", .query = {{"exposure", exposure}}});
+    EXPECT_EQ(answer.status, 400) << exposure;
+    EXPECT_NE(answer.body.find("exposure must be"), std::string::npos) << answer.body;
+  }
+}
+
+// What came after the line break was dropped without a word.
+TEST_F(Session, OverridesOfSeveralLinesAreRefused) {
+  write("");
+  LiveSession session(settings());
+  const std::string lines = "brush.contrast=0.5\nnonsense=7";
+  const uint64_t change = session.change({{lines}});
+  const LiveView view = viewWhere(session, [&](const LiveView& v) { return v.change == change; });
+  EXPECT_NE(view.error.find("brush.contrast: there is more than one value"), std::string::npos)
+      << view.error;
+  const HttpResponse saved = answerPage(
+      session,
+      {.method = "POST", .path = "/save", .body = nlohmann::json{{"overrides", {lines}}}.dump()});
+  EXPECT_EQ(saved.status, 400);
+  EXPECT_NE(saved.body.find("there is more than one value"), std::string::npos) << saved.body;
+}
+
 }  // namespace
 }  // namespace kagefude

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "look/override.h"
+#include "test_folder.h"
 
 namespace kagefude {
 namespace {
@@ -53,6 +54,24 @@ TEST(ParseToml, OverridesAreBoundAsWell) {
   EXPECT_THROW(applyOverride(look, repeated("a.", 32000) + "a=1"), LookError);
   EXPECT_THROW(applyOverride(look, "a.b={" + repeated("a.", 32000) + "a=1}"), LookError);
   EXPECT_THROW(applyOverride(look, "a.b=" + repeated("[", 32000)), LookError);
+}
+
+// What came after the line break was dropped without a word.
+TEST(ParseToml, AnOverrideSetsOneValue) {
+  for (const char* more :
+       {"\nnonsense=7", "\n[brush]", "\r\n[[style]]\nobject = \"a\"", "\na.b=1"}) {
+    toml::table look;
+    const std::string message =
+        messageOf<LookError>([&] { applyOverride(look, std::string("edges.rough=20") + more); });
+    EXPECT_NE(message.find("--set edges.rough: there is more than one value"), std::string::npos)
+        << more;
+    EXPECT_THROW(setValue(look, std::string("width=8") + more), LookError);
+  }
+  toml::table look;
+  applyOverride(look, "edges.rough=20  # a remark\n");
+  applyOverride(look, "edges.list=[\n1,\n2]");
+  EXPECT_EQ(look["edges"]["rough"].value<int>(), 20);
+  EXPECT_EQ(look["edges"]["list"].as_array()->size(), 2u);
 }
 
 }  // namespace

@@ -94,8 +94,10 @@ TEST(PaletteText, ColoursAsOneTypesThem) {
   expectColour(colours[0], 1, 128 / 255.0f, 0);
   expectColour(colours[1], 0, 0.2f, 0.4f);
   expectColour(colours[2], 1, 1, 1);
-  for (const char* wrong : {"", "#ff80", "red", "#gggggg", "#ff8000,,x"})
+  for (const char* wrong : {"", "#ff80", "red", "#gggggg", "#ff8000,,x", "#2b1d38,,#ffffff",
+                            ",#fff", "#fff,", "#fff, ,#000", " ", ","})
     EXPECT_THROW(paletteFromText(wrong), UsageError) << wrong;
+  EXPECT_EQ(paletteFromText(" #fff #000  , #123 ").size(), 3u);
 }
 
 }  // namespace

@@ -90,11 +90,12 @@ void changes(const Line& here, const Line& behind, int offsetBehind, const Line&
     const float z = lengthG < lengthF ? gz : fz;
     const float least = lengthG < lengthF ? lengthG : lengthF;
     const float t = toneG < toneF ? gt : ft;
-    const float leastTone = toneG < toneF ? toneG : toneF;
+    const float mostTone = toneG < toneF ? toneF : toneG;
+    const bool alike = mostTone < noChange && ft * gt > 0.0f;
     dx[i] = least < noChange ? x : 0.0f;
     dy[i] = least < noChange ? y : 0.0f;
     dz[i] = least < noChange ? z : 0.0f;
-    dTone[i] = leastTone < noChange ? t : 0.0f;
+    dTone[i] = alike ? t : 0.0f;
   }
 }
 

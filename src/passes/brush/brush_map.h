@@ -42,11 +42,12 @@ BrushResult cloneColours(const BrushResult& strokes);
 /// (of object grain the grains are mixed so, about their mean 0, before they pick a colour)
 /// M = mean + contrast Σ w (C - mean) / √Σ w² with the row's mean colour, or / Σ w (linear).
 /// Negative results become 0, but for `seed`. Filtering: footprints from the neighbours of the same
-/// anchor, of the two the one that differs less, so that silhouettes and hard shadow edges stay
-/// sharp; angles by their analytic derivative, so the wrap does not show. Index 0, indices beyond
-/// the list, and non-finite positions give 0; a NaN tone is 0. All planes must be of one size;
-/// `normal` may be empty; every strip index must be valid (InputError). Memory: 16 bytes a pixel
-/// for the result, 24 with diagnostics. The same bits for any threads.
+/// anchor, of the two the one that differs less, of the tone only where both rise or both fall, so
+/// that silhouettes, hard shadow edges and things a pixel or two wide stay sharp; angles by their
+/// analytic derivative, so the wrap does not show. Index 0, indices beyond the list, and non-finite
+/// positions give 0; a NaN tone is 0. All planes must be of one size; `normal` may be empty; every
+/// strip index must be valid (InputError). Memory: 16 bytes a pixel for the result, 24 with
+/// diagnostics. The same bits for any threads.
 BrushResult applyBrush(Vec3View position, Vec3View normal, View<const float> tone,
                        View<const uint16_t> anchorIndex, std::span<const BrushAnchor> anchors,
                        std::span<const Strip> strips, const BrushParams& params);

@@ -17,11 +17,13 @@ struct Change {
 
 // Change to the next pixel along one direction, from the neighbour behind or before that belongs
 // to the same anchor and differs less; position (and with it the place at rest) and tone choose for
-// themselves.
+// themselves. The tone's is 0 unless it rises or falls on both sides: at borders, and on things a
+// pixel or two wide, the step to the only neighbour is no slope of the pixel, which would be
+// painted with what lies next to it.
 Change changeAlong(const BrushInput& in, bool atRest, int x, int y, int stepX, int stepY,
                    const V3f& p, float tone) {
   Change best;
-  float smallest = noChange, smallestTone = noChange;
+  float smallest = noChange, tones[2] = {0, 0};
   for (int side = 1; side >= -1; side -= 2) {
     const int nx = x + side * stepX, ny = y + side * stepY;
     if (!in.index.contains(nx, ny) || in.index(nx, ny) != in.index(x, y)) continue;
@@ -33,12 +35,10 @@ Change changeAlong(const BrushInput& in, bool atRest, int x, int y, int stepX, i
       best.position = d;
       if (atRest) best.rest = (in.rest(nx, ny) - in.rest(x, y)) * static_cast<float>(side);
     }
-    const float dTone = (clampedUnit(in.tone(nx, ny)) - tone) * static_cast<float>(side);
-    if (std::fabs(dTone) < smallestTone) {
-      smallestTone = std::fabs(dTone);
-      best.tone = dTone;
-    }
+    tones[side > 0] = (clampedUnit(in.tone(nx, ny)) - tone) * static_cast<float>(side);
   }
+  if (tones[0] * tones[1] > 0.0f)
+    best.tone = std::fabs(tones[0]) < std::fabs(tones[1]) ? tones[0] : tones[1];
   return best;
 }
 

@@ -13,10 +13,19 @@ namespace kagefude {
 struct MapAgreement {
   size_t hidden = 0, hiddenInMap = 0;
   size_t lit = 0, litInMap = 0;
+  size_t litInside = 0;   ///< lit ones that lie within the map
+  size_t litOwn = 0;      ///< of these, those that are in the map themselves
+  size_t partly = 0;      ///< pixels of which the masks differ
+  bool mapEmpty = false;  ///< no texel of the map holds anything
 
-  /// The map hides less than 0.4 of what the masks hide, or shows less than 0.95 of what they show.
-  /// Of fewer than 64 pixels of either kind nothing is known.
+  /// The map hides less than 0.4 of what the masks hide, or shows less than 0.95 of what they show,
+  /// or is empty although they hide something, wholly or in part. Where they hide too little to
+  /// tell, it also contradicts if it has less than 0.02 of the lit places within it: other maps see
+  /// past them. (That alone is no fault, for what casts no shadow may be left out of a map.) Each
+  /// kind speaks for itself; fewer than 64 pixels of it say nothing.
   bool contradicts() const;
+  bool emptyThoughHidden() const;
+  bool seesPastLit() const;
 };
 
 /// Counts over some 4,000 places at even distances on the frame. Only places that face the light

@@ -14,13 +14,13 @@ struct EdgePaint {
   ColourViews own;                            ///< each pixel's paint, of the thing at its centre
   View<const uint16_t> things;                ///< 0 = background, i -> params[i - 1]
   std::span<const PaintedEdgeParams> params;  ///< widths in pixels
-  Vec3View position;           ///< world; with `eye` it tells what is in front; may be empty
-  V3f eye{0, 0, 0};            ///< of the camera
-  View<const float> distance;  ///< from the camera, only compared, where no position is given
-  View<const float> grain;     ///< of the strokes, mean 0 and variance 1
-  std::span<const uint32_t> coverageIds;   ///< each thing as the ranks name it
-  std::span<const CoverageRank> coverage;  ///< empty: edges run between pixels
-  const PaintGround* ground = nullptr;     ///< behind things; null: nothing is known of it
+  Vec3View position{};           ///< world; with `eye` it tells what is in front; may be empty
+  V3f eye{0, 0, 0};              ///< of the camera
+  View<const float> distance{};  ///< from the camera, only compared, where no position is given
+  View<const float> grain{};     ///< of the strokes, mean 0 and variance 1
+  std::span<const uint32_t> coverageIds{};   ///< each thing as the ranks name it
+  std::span<const CoverageRank> coverage{};  ///< empty: edges run between pixels
+  const PaintGround* ground = nullptr;       ///< behind things; null: nothing is known of it
 };
 
 /// **[ours]** Ends paint as a brush does. paint: associated, its things met by coverage; in place.

@@ -63,6 +63,40 @@ TEST(MapAgreement, WhereMasksDisagreeOrTheLightGrazesNothingCounts) {
   EXPECT_EQ(floor.with(dark).hidden, 0u);
 }
 
+TEST(MapAgreement, EitherKindContradictsByItself) {
+  AgreeingFloor floor;
+  EXPECT_TRUE(floor.with(floor.maskTo(100)).contradicts());    // no place is lit
+  EXPECT_FALSE(floor.with(floor.maskTo(-100)).contradicts());  // nor hidden
+  floor.blockLeft();
+  EXPECT_TRUE(floor.with(floor.maskTo(-100)).contradicts());
+}
+
+TEST(MapAgreement, AnEmptyMapContradictsWhereAnythingIsHiddenInPart) {
+  AgreeingFloor floor;
+  floor.depth.fill(1e10f);
+  const Bytes dark = floor.maskTo(100), bright = floor.maskTo(-100);
+  const View<const uint8_t> masks[] = {bright, dark};
+  const MapAgreement found =
+      agreementOf(masks, floor.light, floor.position, floor.normal, floor.labels, floor.map);
+  EXPECT_EQ(found.partly, 200u);
+  EXPECT_TRUE(found.mapEmpty);
+  EXPECT_TRUE(found.contradicts());
+  EXPECT_FALSE(floor.with(bright).contradicts()) << "where nothing casts";
+}
+
+TEST(MapAgreement, AMapThatSeesPastLitPlacesContradictsUnlessItHidesWhatMasksHide) {
+  AgreeingFloor floor;
+  floor.depth.fill(1e10f);
+  floor.blockLeft();
+  const MapAgreement fits = floor.with(floor.maskTo(0));
+  EXPECT_EQ(fits.litInside, 100u);
+  EXPECT_EQ(fits.litOwn, 0u);
+  EXPECT_FALSE(fits.contradicts()) << "the floor casts no shadow";
+  floor.depth.fill(1e10f);
+  floor.block(5, [](int, int y) { return y < 9; });
+  EXPECT_TRUE(floor.with(floor.maskTo(-100)).contradicts());
+}
+
 TEST(MapAgreement, OfAFewPixelsNothingIsKnown) {
   AgreeingFloor floor;
   EXPECT_FALSE(floor.with(floor.maskTo(-1.5f)).contradicts());  // 62 pixels are dark

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace kagefude {
 namespace {
