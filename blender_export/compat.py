@@ -55,9 +55,9 @@ def set_casts_shadow(light, casts):
 
 
 def light_output(light, kind, radius):
-    """(energy, colour) of light data as they were set before 4.5, which added factors to both.
+    """(energy, colour) of light data as they were set in 3.4; later versions added factors to both.
 
-    Exposure in stops, the colour of a temperature, and "Normalize": off, a light gives off more the
+    An area light gives 4 / pi times as much from 4.0 on (measured in 4.3 and 5.2). From 4.5: exposure in stops, the colour of a temperature, and "Normalize": off, a light gives off more the
     larger it is. The factors of that are measured in 5.2: 4 pi r^2 for a point or spot (4 without a
     size), the area for an area light, pi sin^2 of half its angle for a sun (1 without one). `radius`
     is that of the light's state: world units, of an area's equal circle, a sun's tangent.
@@ -67,6 +67,8 @@ def light_output(light, kind, radius):
         color = tuple(one * other for one, other in zip(color, light.temperature_color))
     if not getattr(light, "normalize", True):
         energy *= _size_gain(kind, radius)
+    if kind == "area" and bpy.app.version >= (4, 0, 0):
+        energy *= 4.0 / math.pi
     return energy, color
 
 

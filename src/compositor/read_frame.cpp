@@ -140,6 +140,18 @@ void clearIds(const std::set<uint32_t>& unpainted, View<uint32_t> ids) {
   });
 }
 
+/// A TIFF may hold colours by themselves; here they are multiplied by alpha, as EXR has them.
+void multiplyStraightBeauty(const FramePlan& plan, FramePlanes& planes) {
+  if (!plan.beauty || planes.alpha.empty()) return;
+  const Channel* const red = plan.image.findChannel(plan.beauty->channels[0]);
+  if (!plan.image.parts[static_cast<size_t>(red->part)].straight) return;
+  for (Floats* colour : {&planes.beauty.x, &planes.beauty.y, &planes.beauty.z})
+    parallelRows(colour->height(), [&](int first, int end) {
+      for (int y = first; y < end; ++y)
+        for (int x = 0; x < colour->width(); ++x) (*colour)(x, y) *= planes.alpha(x, y);
+    });
+}
+
 /// Where an object is not painted, the beauty stands: cut, or with what lies behind it.
 void clearUnpainted(const FramePlan& plan, FramePlanes& planes) {
   if (!plan.sidecar) return;
@@ -240,6 +252,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   convertToWorld(plan.spaces, plan.image, planes.position, planes.normal);
   clearOutside(plan, planes);
   if (plan.emission) planes.emission = luminancesOf(emission);
+  multiplyStraightBeauty(plan, planes);
   planes.badBeauty = clearNonFiniteColour(planes.beauty, planes.alpha.view());
   planes.badAlbedo = clearNonFiniteColour(planes.albedo);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());

@@ -53,6 +53,7 @@ struct Part {
   int place = 0;                              ///< among the parts of that file
   std::shared_ptr<const PlaneSource> source;  ///< what reads it; null: it is an EXR's
   bool ofIntegers = false;  ///< of a picture whose samples are integers: 0..1 in steps
+  bool straight = false;    ///< of a picture whose colours are not multiplied by its alpha
 };
 
 /// The headers of an EXR file, and nothing of its pixels. The display window, the codec and the

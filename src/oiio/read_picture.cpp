@@ -48,8 +48,11 @@ PictureAttribute describe(const OIIO::ParamValue& value) {
 
 /// Formats whose colours are not multiplied by alpha though OpenImageIO 2.4 does not say so: by
 /// their definitions (BMP, ICO, DDS of DXT 1, 3 and 5), and where it hands them out that way when
-/// it is asked not to multiply (JPEG 2000, Photoshop).
+/// it is asked not to multiply (JPEG 2000, Photoshop). 3.1 does not multiply a WebP's, and says so
+/// from 3.1.10 on; before 3.1 it is multiplied whatever is asked.
 bool isStraight(const std::string& format) {
+  const int version = OIIO::openimageio_version();
+  if (format == "webp") return version >= 30100;
   for (const char* name : {"bmp", "ico", "dds", "jpeg2000", "psd"})
     if (format == name) return true;
   return false;

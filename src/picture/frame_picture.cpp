@@ -104,6 +104,7 @@ ImageFile openOther(const std::filesystem::path& path) {
   part.file = path;
   part.source = std::make_shared<PictureSource>(path, header);
   part.ofIntegers = isInteger(header.channels.front().type);
+  part.straight = header.unassociated;
   file.parts = {std::move(part)};
   for (const PictureChannel& channel : header.channels)
     file.channels.push_back({channel.name, channel.name, typeOf(channel.type), 0});

@@ -125,15 +125,24 @@ class Lights(unittest.TestCase):
         light = Fake(energy=12.0, color=(1.0, 0.5, 0.25))
         self.assertEqual(compat_of(OLD).light_output(light, "point", 0.3), (12.0, (1.0, 0.5, 0.25)))
 
+    def test_an_area_light_of_4_0_is_one_of_more_watts(self):
+        """Radiance of a white plane that it faces, as measured in 3.4.1, 4.3.2 and 5.2.2."""
+        light = Fake(energy=60.0, color=(1.0, 1.0, 1.0))
+        old, *new = (compat_of(version).light_output(light, "area", 0.05)[0]
+                     for version in (OLD, MIDDLE, NEW))
+        self.assertEqual(old, 60.0)
+        for watts in new:
+            self.assertAlmostEqual(watts / old, 5.0669 / 3.9793, 3)
+
     def test_exposure_temperature_and_size_count(self):
         compat = compat_of(NEW)
         light = Fake(energy=10.0, color=(1.0, 0.5, 1.0), exposure=2.0, use_temperature=True,
                      temperature_color=(2.0, 1.0, 0.5), normalize=True)
-        self.assertEqual(compat.light_output(light, "area", 1.0), (40.0, (2.0, 0.5, 0.5)))
+        self.assertEqual(compat.light_output(light, "point", 1.0), (40.0, (2.0, 0.5, 0.5)))
         light.normalize, light.exposure = False, 0.0
         # Ratios measured in Blender 5.2.2: point of radius 0.5, none, area 0.5 x 0.6, sun of 40 degrees.
         for kind, radius, ratio in (("point", 0.5, 3.141593), ("spot", 0.0, 4.0),
-                                    ("area", math.sqrt(0.3 / math.pi), 0.3),
+                                    ("area", math.sqrt(0.3 / math.pi), 0.3 * 4.0 / math.pi),
                                     ("sun", math.tan(math.radians(20)), 0.3675), ("sun", 0.0, 1.0)):
             self.assertAlmostEqual(compat.light_output(light, kind, radius)[0], 10.0 * ratio, 3)
 

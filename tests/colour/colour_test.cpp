@@ -34,7 +34,8 @@ TEST_F(ColourTest, BuiltInSrgbIsTheStandardsCurve) {
   Floats red = ramp(), green = ramp(), blue = ramp();
   colour.toWorking(red, green, blue, "sRGB");
   for (int x = 0; x < 256; ++x) {
-    EXPECT_NEAR(green(x, 0), linearOf(static_cast<float>(x) / 255.0f), 2e-5f) << x;
+    // OpenColorIO 2.1 is within 2e-5, 2.5 within 2.4e-5.
+    EXPECT_NEAR(green(x, 0), linearOf(static_cast<float>(x) / 255.0f), 3e-5f) << x;
   }
   colour.toDisplay(red, green, blue);
   for (int x = 0; x < 256; ++x) EXPECT_NEAR(red(x, 0), static_cast<float>(x) / 255.0f, 5e-5f);

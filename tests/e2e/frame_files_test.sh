@@ -173,6 +173,17 @@ awk -v r="${ratio:-0}" 'BEGIN { exit !(r > 1.99 && r < 2.01) }' && pass || fail 
 quiet whole.exr --ch R,G,B --resize 50% --colorconvert linear sRGB -d uint8 -o small.png
 [ -s small.png ] && pass || fail "no small.png"
 
+# A TIFF of colours by themselves is the picture that it would be multiplied by its alpha.
+folder straight && folder multiplied
+quiet "$whole" --ch $beauty --chnames R,G,B,A --mulc 0.5 -d float -o multiplied/shot.0001.tif
+quiet multiplied/shot.0001.tif --unpremult --attrib oiio:UnassociatedAlpha 1 -o straight/shot.0001.tif
+for form in straight multiplied; do
+  comp $form/shot.0001.tif $form.exr --set 'frame.files=["../files/shot.P.####.exr", "../files/shot.N.####.exr", "../files/shot.masks.####.exr"]' 2>error ||
+    fail "$form: $(cat error)"
+done
+iinfo -v straight/shot.0001.tif | grep -q 'UnassociatedAlpha: 1' && pass || fail "not written by themselves"
+idiff -fail 0.00001 multiplied.exr straight.exr >/dev/null && pass || fail "straight colours give another picture"
+
 # refused WORDS ARGUMENT...: exit 1 or 2, one sentence, nothing written.
 refused() {
   rm -f no.exr
