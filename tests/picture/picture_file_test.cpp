@@ -260,7 +260,9 @@ TEST(PictureFile, AClaimThatTheFileCannotHoldIsRefusedBeforeItIsAllocated) {
   }
   tga[16] = 24;
   writeText(folder / "a.tga", tga + std::string(1000, 'x'));
-  expectContains(messageOf<InputError>([&] { readStrip(folder / "a.tga"); }), "60000 x 60000");
+  // OpenImageIO 3.1 counts by itself.
+  const std::string said = messageOf<InputError>([&] { readStrip(folder / "a.tga"); });
+  if (said.find("10800000000 bytes") == std::string::npos) expectContains(said, "60000 x 60000");
 }
 
 }  // namespace
