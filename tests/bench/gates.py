@@ -22,6 +22,8 @@ AT_MOST = [
      "OpenCV distance transform", "openCvDistanceTransform/repeats:5/real_time", 10),
     ("brush, 21 styles, 4K", "brushHeld/process_time/real_time", "OpenCV phase and remap",
      "openCvPhaseRemap/process_time/real_time", 1.5),
+    ("brush, polar, 21 styles, 4K", "brushPolar/process_time/real_time", "OpenCV phase and remap",
+     "openCvPhaseRemap/process_time/real_time", 3.5),
     ("brush, seed's mapping, 21 styles, 4K", "brushSeed/process_time/real_time",
      "OpenCV phase and remap", "openCvPhaseRemap/process_time/real_time", None),
     ("coverage, 20,000 triangles, 2K", "coverage/20000/process_time/real_time",

@@ -13,6 +13,7 @@
 #include "passes/brush/brush_rows.h"
 #include "passes/brush/brush_taps.h"
 #include "passes/brush/grain_rows.h"
+#include "passes/brush/polar_rows.h"
 #include "passes/brush/seed_rows.h"
 
 namespace kagefude {
@@ -100,6 +101,8 @@ void paintRow(const BrushInput& in, int x, int stop, int y, bool keepOthers, Col
       paintObjectRow(in, in.anchors[index[x] - 1], x, end, y, out);
     else if (known && canPaintHeldRow(in, in.anchors[index[x] - 1]))
       paintHeldRow(in, in.anchors[index[x] - 1], x, end, y, out);
+    else if (known && canPaintPolarRow(in, in.anchors[index[x] - 1]))
+      paintPolarRow(in, in.anchors[index[x] - 1], x, end, y, out);
     else if (known || !keepOthers)
       paintPlainly(in, x, end, y, out);
     if (out.grain && known && !ofGrain)

@@ -17,7 +17,7 @@ using test::mappingOf;
 using test::oneStrip;
 using test::sameBits;
 
-void rowsEqualThePlainPass(BrushParams::Grain grain, float bound) {
+void rowsEqualThePlainPass(BrushParams::Mapping mapping, BrushParams::Grain grain, float bound) {
   const auto strips = oneStrip(test::noiseStrip(96, 80));
   for (uint32_t seed = 0; seed < 6; ++seed) {
     const BrushScene scene = test::randomScene(301, 45, 10 * seed);
@@ -31,7 +31,10 @@ void rowsEqualThePlainPass(BrushParams::Grain grain, float bound) {
       anchors[0].points[1].frame.axis = V3f(0.0f, 0.6f, -0.8f);
     }
     BrushParams params;
+    params.mapping = mapping;
     params.grain = grain;
+    if (seed == 1) params.poleFade = 0.0f;
+    if (seed == 2) params.blendWidth = 0.0f;
     params.contrast = seed % 3 == 0 ? 1.0f : 1.7f;
     params.crossFade =
         seed % 4 == 3 ? BrushParams::CrossFade::linear : BrushParams::CrossFade::variance;
@@ -52,10 +55,11 @@ void rowsEqualThePlainPass(BrushParams::Grain grain, float bound) {
 
 // The same sums in another order: a few roundings of numbers near 1; with object grain of places up
 // to 50 turns away, times the slope of the colours
-// over the grain.
+// over the grain; with polar strokes of up to 100 repeats round the axis.
 TEST(BrushMap, RowsEqualThePlainPass) {
-  rowsEqualThePlainPass(BrushParams::Grain::tone, 2e-6f);
-  rowsEqualThePlainPass(BrushParams::Grain::object, 5e-5f);
+  rowsEqualThePlainPass(BrushParams::Mapping::held, BrushParams::Grain::tone, 2e-6f);
+  rowsEqualThePlainPass(BrushParams::Mapping::held, BrushParams::Grain::object, 5e-5f);
+  rowsEqualThePlainPass(BrushParams::Mapping::polar, BrushParams::Grain::tone, 5e-5f);
 }
 
 TEST(BrushMap, SeedRowsAreThePlainPassToTheBit) {

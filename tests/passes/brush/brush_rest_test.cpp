@@ -191,8 +191,13 @@ TEST(BrushRest, RowsEqualThePlainPass) {
       anchors[0].points[1].along = 3;
       anchors[0].points[1].frame.axis = V3f(0.0f, 0.6f, -0.8f);
     }
-    for (const auto grain : {BrushParams::Grain::object, BrushParams::Grain::tone}) {
+    using Mapping = BrushParams::Mapping;
+    using Grain = BrushParams::Grain;
+    for (const auto& [mapping, grain] : {std::pair(Mapping::held, Grain::object),
+                                         std::pair(Mapping::held, Grain::tone),
+                                         std::pair(Mapping::polar, Grain::tone)}) {
       BrushParams params;
+      params.mapping = mapping;
       params.grain = grain;
       const Vec3View normal = seed == 4 ? Vec3View{} : scene.seen.normal.view();
       BrushResult fast;
@@ -201,7 +206,7 @@ TEST(BrushRest, RowsEqualThePlainPass) {
       const BrushInput in{
           scene.seen.position, normal, scene.seen.tone, scene.seen.index, anchors, strips, params,
           scene.rest};
-      const float bound = grain == BrushParams::Grain::tone ? 4e-6f : 5e-5f;
+      const float bound = mapping == Mapping::held && grain == Grain::tone ? 4e-6f : 5e-5f;
       for (int y = 0; y < 45; ++y)
         for (int x = 0; x < 301; ++x) {
           if (scene.seen.index(x, y) == 0) continue;
