@@ -27,6 +27,7 @@ class LightState:
     color: tuple            # with that of the light's nodes
     energy: float           # as it is in this frame: with its nodes' strength, 0 where it is hidden
     casts_shadow: bool
+    narrowed: bool          # whether an area light has a spread of less than 180 degrees
     unknown_node: str       # name of a node of the light that could not be followed, or None
     world_from_light: Matrix
 
@@ -45,7 +46,7 @@ def read_light(evaluated, name):
         radius, half_length, axes, cone,
         tuple(one * other for one, other in zip(color, emission.color)),
         0.0 if hidden else energy * emission.strength, compat.casts_shadow(data),
-        emission.unknown, matrix)
+        data.type == 'AREA' and data.spread < 0.999 * math.pi, emission.unknown, matrix)
 
 
 def _size(data, matrix, rotation):

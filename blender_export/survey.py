@@ -48,6 +48,9 @@ def light_notes(samples, name, offset):
     if node:
         yield (f"light '{name}' has the node '{node}', which cannot be followed here; it counts as "
                f"1 in the light's energy and color")
+    if any(sample.lights[name].narrowed for sample in samples):
+        yield (f"light '{name}' has a spread of less than 180 degrees, which is not followed here; "
+               f"paint is lit outside of its beam as well")
     if not ever_casts(samples, name):
         yield f"light '{name}' casts no shadow, so it has no masks and only shades"
     elif not ever_sized(samples, name) and not offset:
@@ -100,4 +103,4 @@ def _light_sample(evaluated):
         return irradiance(state.kind, power, state.position, axis, None, point)
     return whole_shot.LightSample(state.position, power > 0.0, state.casts_shadow,
                                   state.unknown_node, power, irradiance_at, on_axis_at,
-                                  max(state.radius, state.half_length) > 0.0)
+                                  max(state.radius, state.half_length) > 0.0, state.narrowed)

@@ -28,6 +28,7 @@ class LightSample:
     irradiance_at: object     # function of a world point: luminance that arrives there
     on_axis_at: object        # the same, were the point on the light's axis
     sized: bool = True        # False where it is a point
+    narrowed: bool = False    # an area light with a spread of less than 180 degrees
 
 
 @dataclass

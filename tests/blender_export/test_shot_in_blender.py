@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Nothing depends on what one frame happens to see: each frame's lights and the shot's own values."""
 
+import math
 import unittest
 
-from blender_case import BlenderCase
+from blender_case import BlenderCase, blender_says
 
 ROLLING_BALL = """
 scene = start()
@@ -36,7 +37,7 @@ key(emission.inputs["Strength"], "default_value", f1=1.0, f3=0.25)
 light("Dark", 'POINT', (1, -1, 4), energy=0.0)
 light("Never", 'POINT', (1, -2, 4), energy=50.0).hide_render = True
 fill = light("Fill", 'AREA', (0, -3, 4), (30, 0, 0), energy=20, shape='ELLIPSE', size=0.4, size_y=2.0)
-fill.data.use_shadow = False
+fill.data.use_shadow, fill.data.spread = False, 1.0
 if hasattr(fill.data.cycles, "cast_shadow"):  # Cycles' own switch, before Blender 4.2
     fill.data.cycles.cast_shadow = False
 tools.camera((0, -7, 3), (0, 0, 0.5), 50)
@@ -74,16 +75,20 @@ class Lamps(BlenderCase):
     def test_lights_are_as_they_are_in_their_frame(self):
         said = self.export(self.build(LAMPS), "--frames", "3,1,2", "--masks", "line:2")
         frames = {frame: self.lights(self.document(frame)) for frame in (1, 2, 3)}
+        fill = 20.0 if blender_says("bpy.app.version < (4, 0, 0)") else 20.0 * 4.0 / math.pi
         for lights in frames.values():
             self.assertEqual(list(lights), ["Dimmed", "Fading", "Fill", "Late", "Off"])
         for name, energies in (("Off", (100.0, 0.0, 0.0)), ("Late", (0.0, 0.0, 100.0)),
                                ("Fading", (100.0, 50.0, 0.0)), ("Dimmed", (100.0, 62.5, 25.0)),
-                               ("Fill", (20.0, 20.0, 20.0))):
+                               ("Fill", (fill, fill, fill))):
             found = tuple(frames[frame][name]["energy"] for frame in (1, 2, 3))
             for one, other in zip(found, energies):
                 self.assertAlmostEqual(one, other, 3, (name, found))
         self.assertEqual(frames[1]["Dimmed"]["color"], [1.0, 0.5, 0.25])
-        self.assertEqual(len([note for note in self.notes(said) if "'Fill'" in note]), 1)
+        notes = [note for note in self.notes(said) if "'Fill'" in note]
+        self.assertEqual(len(notes), 2)
+        self.assertIn("a spread of less than 180 degrees", notes[0])
+        self.assertIn("casts no shadow", notes[1])
 
     def test_a_lamp_without_shadow_keeps_its_shade(self):
         self.export(self.build(LAMPS), "--frames", "1", "--masks", "line:2")
