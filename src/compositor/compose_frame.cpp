@@ -36,11 +36,12 @@ void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageS
   sink.labels("surfaces", surfaces);
 }
 
-/// Strokes have their places; what those were made of is read by no one else.
-void freeGrounds(FramePlanes& planes) {
+/// Surfaces have their styles and strokes their places; what those were made of is read by no one
+/// else.
+void freeStyled(FramePlanes& planes) {
   planes.rest = {};
   for (Floats* plane : {&planes.u, &planes.v, &planes.instanceRandom}) *plane = {};
-  planes.materialId = {};
+  for (Labels* plane : {&planes.objectId, &planes.materialId}) *plane = {};
 }
 
 /// Whether the surfaces are still wanted once the tone is known.
@@ -82,7 +83,7 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   const ToneFloor floor = toneFloor(look, plan, planes);
   levelTone(floor, styled, tone);
   if (ownLights) levelTone(floor, styled, shared);
-  freeGrounds(planes);
+  freeStyled(planes);
   if (!wantsSurfaces(look, styled)) surfaces = {};
   lap(clock, "styles and tone");
   if (sink) sink->number("brush.tone", tone);
