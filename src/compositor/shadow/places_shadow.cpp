@@ -55,7 +55,7 @@ LightVisibility placesShadow(const ShadowWork& work) {
   for (const V2f& place : places) masks.push_back(maskFrom(place, geometry, work));
   LightShapeResult shape = lightShapeVisibility(
       viewsOf(masks), places, labelsFor(params.bound, work), work.frame.position, work.frame.normal,
-      geometry, params, work.light.tellsConfidence);
+      geometry, params, {work.light.tellsConfidence, false});
   return {std::move(shape.visibility), std::move(shape.confidence)};
 }
 

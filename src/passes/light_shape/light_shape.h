@@ -66,7 +66,12 @@ struct LightShapeResult {
   Floats visibility;
   /// 1 where distances are measured, falling to 0 where they are extrapolated; empty: not asked for
   Floats confidence;
-  Bytes unsure;  ///< 1 where masks disagree or a shadow was followed; empty with a style
+  Bytes unsure;  ///< 1 where masks disagree or a shadow was followed; empty also with a style
+};
+
+/// What beside the visibility is asked for.
+struct LightShapeWanted {
+  bool confidence = true, unsure = true;
 };
 
 /// Visibility of a disc, rectangle or line light from K hard masks of known places: the share of
@@ -102,6 +107,7 @@ LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks
                                       std::span<const V2f> places, View<const uint32_t> labels,
                                       Vec3View position, Vec3View normal,
                                       const std::optional<LightGeometry>& geometry,
-                                      const LightShapeParams& params, bool confidence = true);
+                                      const LightShapeParams& params,
+                                      const LightShapeWanted& wanted = {});
 
 }  // namespace kagefude
