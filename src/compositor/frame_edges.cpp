@@ -35,9 +35,11 @@ Labels ownCryptomatteIds(const FramePlan& plan, const StyledSurfaces& styled) {
 }
 
 std::vector<CoverageRank> coverageRanks(const FramePlanes& planes) {
+  const CoveragePlanes& coverage = planes.coverage;
   std::vector<CoverageRank> ranks;
-  for (size_t i = 0; i < planes.coverageIds.size(); ++i)
-    ranks.push_back({planes.coverageIds[i], planes.coverageShares[i]});
+  if (!coverage.empty()) ranks.push_back({coverage.firstId, coverage.firstShare});
+  for (size_t i = 0; i < coverage.otherIds.size(); ++i)
+    ranks.push_back({coverage.otherIds[i], coverage.otherShares[i]});
   return ranks;
 }
 
@@ -45,7 +47,7 @@ EdgeSurfaces edgeSurfaces(const FramePlanes& planes, const StyledSurfaces& style
                           View<const uint8_t> joins) {
   EdgeSurfaces surfaces{styled.objects, styled.anchorIndex, joins, planes.normal, planes.position};
   surfaces.rays = planes.rays ? &*planes.rays : nullptr;
-  surfaces.betweenObjects = planes.coverageIds.empty();
+  surfaces.betweenObjects = planes.coverage.empty();
   return surfaces;
 }
 
@@ -88,13 +90,13 @@ void paintLines(const OutlineResult& lines, const StyledSurfaces& styled,
 
 void blendEdges(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
                 BrushResult& brush) {
-  if (planes.coverageIds.empty()) return;
+  if (planes.coverage.empty()) return;
   const Labels own = ownCryptomatteIds(plan, styled);
   blendByCoverage({brush.r, brush.g, brush.b, brush.a}, own, coverageRanks(planes));
 }
 
 bool knowsMeanNormals(const FramePlanes& planes) {
-  return !planes.meanNormal.x.empty() && !planes.coverageIds.empty();
+  return !planes.meanNormal.x.empty() && !planes.coverage.empty();
 }
 
 void blendByNormals(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
