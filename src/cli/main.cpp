@@ -12,6 +12,8 @@ int main(int argc, char** argv) {
   // With an arena a thread, the allocator keeps planes of finished frames in every one of them, and
   // a batch was measured at twice its --max-memory. Planes are few and large, so one is enough.
   mallopt(M_ARENA_MAX, 1);
+  // Fixed, for it would grow with what is freed, and large blocks would then stay in the heap.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
   kagefude::Console console{std::cout, std::cerr, isatty(STDERR_FILENO) != 0};
   winsize window{};
   if (console.terminal && ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0)

@@ -1,5 +1,6 @@
 #include "compositor/compose_frame.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "compositor/finish_picture.h"
@@ -36,11 +37,22 @@ void showInputs(const FramePlanes& planes, View<const uint32_t> surfaces, StageS
   sink.labels("surfaces", surfaces);
 }
 
-/// Strokes have their places; what those were made of is read by no one else.
-void freeGrounds(FramePlanes& planes) {
+bool multipliesAny(const StyledSurfaces& styled) {
+  const auto any = [](const std::vector<bool>& multiplies) {
+    return std::find(multiplies.begin(), multiplies.end(), true) != multiplies.end();
+  };
+  return any(styled.multiplies) ||
+         std::any_of(styled.ownLights.begin(), styled.ownLights.end(),
+                     [&](const OwnLight& light) { return any(light.multiplies); });
+}
+
+/// Surfaces have their styles and strokes their places; what those were made of is read by no one
+/// else, nor is the colour of surfaces that no style multiplies.
+void freeStyled(const StyledSurfaces& styled, FramePlanes& planes) {
+  if (!multipliesAny(styled)) planes.albedo = {};
   planes.rest = {};
   for (Floats* plane : {&planes.u, &planes.v, &planes.instanceRandom}) *plane = {};
-  planes.materialId = {};
+  for (Labels* plane : {&planes.objectId, &planes.materialId}) *plane = {};
 }
 
 /// Whether the surfaces are still wanted once the tone is known.
@@ -82,7 +94,7 @@ FrameResult composeFrame(const Look& asked, const StripSet& strips, const FrameP
   const ToneFloor floor = toneFloor(look, plan, planes);
   levelTone(floor, styled, tone);
   if (ownLights) levelTone(floor, styled, shared);
-  freeGrounds(planes);
+  freeStyled(styled, planes);
   if (!wantsSurfaces(look, styled)) surfaces = {};
   lap(clock, "styles and tone");
   if (sink) sink->number("brush.tone", tone);

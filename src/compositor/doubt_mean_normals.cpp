@@ -30,8 +30,8 @@ struct MeanFaults {
 
 float coveredAt(const FramePlanes& planes, int x, int y) {
   float sum = 0;
-  for (size_t i = 0; i < planes.coverageIds.size(); ++i)
-    if (planes.coverageIds[i](x, y) != 0) sum += planes.coverageShares[i](x, y);
+  for (size_t rank = 0; rank < planes.coverage.ranks(); ++rank)
+    if (planes.coverage.id(rank, x, y) != 0) sum += planes.coverage.share(rank, x, y);
   return sum;
 }
 
@@ -82,7 +82,7 @@ std::string listFaults(const MeanFaults& faults) {
 bool isFlat(const FramePlanes& planes, int x, int y) {
   constexpr float same = 0.1f;
   const uint32_t own = planes.objectId(x, y);
-  if (own == 0 || !(planes.coverageShares[0](x, y) >= fullShare)) return false;
+  if (own == 0 || !(planes.coverage.firstShare(x, y) >= fullShare)) return false;
   const V3f normal = planes.normal.view()(x, y);
   for (int qy = y - 1; qy <= y + 1; ++qy)
     for (int qx = x - 1; qx <= x + 1; ++qx) {
@@ -122,7 +122,7 @@ void checkMeanNormals(const FramePlan& plan, FramePlanes& planes) {
   std::vector<std::string>& warnings = planes.meanWarnings;
   if (!plan.meanNormalFault.empty())
     warnings.push_back(fmt::format("{}; {}", plan.meanNormalFault, remedy));
-  if (planes.meanNormal.empty() || planes.coverageIds.empty()) return;
+  if (planes.meanNormal.empty() || planes.coverage.empty()) return;
   const std::string pass = plan.meanNormal[0].substr(0, plan.meanNormal[0].rfind('.'));
   const MeanFaults faults = clearImpossible(planes);
   if (2 * faults.all() > faults.seen) {

@@ -51,7 +51,7 @@ void letThingsMeet(const FinishInput& in, BrushResult& brush) {
   if (meetByNormals(in))
     blendByNormals(in.plan, in.planes, in.styled, in.joins, brush);
   else
-    blendEdges(in.plan, in.planes, brush);
+    blendEdges(in.plan, in.planes, in.styled, brush);
 }
 
 PaintViews viewsOf(BrushResult& brush) { return {brush.r, brush.g, brush.b, brush.a}; }

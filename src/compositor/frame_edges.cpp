@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <unordered_map>
 
 #include "base/same_params.h"
 #include "image/parallel.h"
@@ -16,49 +15,39 @@
 namespace kagefude {
 namespace {
 
+/// The Cryptomatte's id of each object that is painted, as they stand in `styled`.
+std::vector<uint32_t> cryptomatteIdsOf(const FramePlan& plan, const StyledSurfaces& styled) {
+  std::vector<uint32_t> ids(styled.objects.size(), 0u);
+  for (size_t i = 1; i < ids.size(); ++i) ids[i] = plan.cryptomatteIdOf(styled.objects[i]);
+  return ids;
+}
+
 /// Each pixel's own thing in the Cryptomatte's ids.
-Labels ownCryptomatteIds(const FramePlan& plan, View<const uint32_t> objects) {
-  Labels ids(objects.width, objects.height);
-  parallelRows(objects.height, [&](int first, int end) {
-    std::unordered_map<uint32_t, uint32_t> known{{0u, 0u}};
-    uint32_t last = 0, lastId = 0;
-    uint32_t* id = ids.row(first);
-    for (const uint32_t* object = objects.row(first); object != objects.row(end); ++object, ++id) {
-      if (*object != last) {
-        const auto [found, isNew] = known.try_emplace(*object, 0);
-        if (isNew) found->second = plan.cryptomatteIdOf(*object);
-        last = *object;
-        lastId = found->second;
-      }
-      *id = lastId;
-    }
+Labels ownCryptomatteIds(const FramePlan& plan, const StyledSurfaces& styled) {
+  const View<const uint16_t> anchors = styled.anchorIndex;
+  const std::vector<uint32_t> known = cryptomatteIdsOf(plan, styled);
+  Labels ids(anchors.width, anchors.height);
+  parallelRows(anchors.height, [&](int first, int end) {
+    std::transform(anchors.row(first), anchors.row(end), ids.row(first),
+                   [&](uint16_t anchor) { return known[anchor]; });
   });
   return ids;
 }
 
-/// The Cryptomatte's id of each anchor's thing.
-std::vector<uint32_t> cryptomatteIdsOf(const FramePlan& plan, View<const uint32_t> objects,
-                                       const StyledSurfaces& styled) {
-  std::vector<uint32_t> ids(styled.anchors.size(), 0u);
-  uint16_t known = 0;  // anchors are numbered by their first pixel
-  const uint16_t* const anchors = styled.anchorIndex.row(0);
-  for (size_t i = 0; i < objects.pixels() && known < ids.size(); ++i)
-    if (anchors[i] == known + 1) ids[known++] = plan.cryptomatteIdOf(objects.data[i]);
-  return ids;
-}
-
 std::vector<CoverageRank> coverageRanks(const FramePlanes& planes) {
+  const CoveragePlanes& coverage = planes.coverage;
   std::vector<CoverageRank> ranks;
-  for (size_t i = 0; i < planes.coverageIds.size(); ++i)
-    ranks.push_back({planes.coverageIds[i], planes.coverageShares[i]});
+  if (!coverage.empty()) ranks.push_back({coverage.firstId, coverage.firstShare});
+  for (size_t i = 0; i < coverage.otherIds.size(); ++i)
+    ranks.push_back({coverage.otherIds[i], coverage.otherShares[i]});
   return ranks;
 }
 
 EdgeSurfaces edgeSurfaces(const FramePlanes& planes, const StyledSurfaces& styled,
                           View<const uint8_t> joins) {
-  EdgeSurfaces surfaces{planes.objectId, styled.anchorIndex, joins, planes.normal, planes.position};
+  EdgeSurfaces surfaces{styled.objects, styled.anchorIndex, joins, planes.normal, planes.position};
   surfaces.rays = planes.rays ? &*planes.rays : nullptr;
-  surfaces.betweenObjects = planes.coverageIds.empty();
+  surfaces.betweenObjects = planes.coverage.empty();
   return surfaces;
 }
 
@@ -99,19 +88,20 @@ void paintLines(const OutlineResult& lines, const StyledSurfaces& styled,
 
 }  // namespace
 
-void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush) {
-  if (planes.coverageIds.empty()) return;
-  const Labels own = ownCryptomatteIds(plan, planes.objectId);
+void blendEdges(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
+                BrushResult& brush) {
+  if (planes.coverage.empty()) return;
+  const Labels own = ownCryptomatteIds(plan, styled);
   blendByCoverage({brush.r, brush.g, brush.b, brush.a}, own, coverageRanks(planes));
 }
 
 bool knowsMeanNormals(const FramePlanes& planes) {
-  return !planes.meanNormal.x.empty() && !planes.coverageIds.empty();
+  return !planes.meanNormal.x.empty() && !planes.coverage.empty();
 }
 
 void blendByNormals(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
                     View<const uint8_t> joins, BrushResult& brush) {
-  const Labels own = ownCryptomatteIds(plan, planes.objectId);
+  const Labels own = ownCryptomatteIds(plan, styled);
   const std::vector<CoverageRank> ranks = coverageRanks(planes);
   blendByMeanNormals({brush.r, brush.g, brush.b, brush.a},
                      {edgeSurfaces(planes, styled, joins), own, ranks, planes.meanNormal});
@@ -133,7 +123,7 @@ void paintStyleEdges(const FramePlan& plan, const FramePlanes& planes, const Sty
                      const BrushResult& own, const PaintGround* ground, BrushResult& brush) {
   const std::vector<CoverageRank> ranks = coverageRanks(planes);
   std::vector<uint32_t> ids;
-  if (!ranks.empty()) ids = cryptomatteIdsOf(plan, planes.objectId, styled);
+  if (!ranks.empty()) ids = cryptomatteIdsOf(plan, styled);
   EdgePaint paint{{own.r, own.g, own.b, own.a}, styled.anchorIndex, styled.edges};
   if (plan.sidecar || planes.rays) {
     paint.position = planes.position;
@@ -142,7 +132,7 @@ void paintStyleEdges(const FramePlan& plan, const FramePlanes& planes, const Sty
     paint.distance = planes.depth;
   }
   paint.grain = brush.grain;
-  paint.coverageIds = ids;
+  paint.coverageIds = std::span(ids).subspan(ids.empty() ? 0 : 1);
   paint.coverage = ranks;
   paint.ground = ground;
   paintEdges(paint, {brush.r, brush.g, brush.b, brush.a});

@@ -9,7 +9,8 @@ namespace kagefude {
 
 /// Lets things meet by their Cryptomatte coverage instead of pixel by pixel, where the frame has
 /// it; else leaves the strokes as they are.
-void blendEdges(const FramePlan& plan, const FramePlanes& planes, BrushResult& brush);
+void blendEdges(const FramePlan& plan, const FramePlanes& planes, const StyledSurfaces& styled,
+                BrushResult& brush);
 
 /// Whether the frame has what blendByNormals needs.
 bool knowsMeanNormals(const FramePlanes& planes);

@@ -75,10 +75,11 @@ constexpr float wholly = 1.0f - 1.0f / 65536.0f;
 
 /// Share of each pixel that painted things cover.
 float coveredShare(const FinishInput& in, int x, int y) {
-  if (in.planes.coverageIds.empty()) return in.styled.anchorIndex(x, y) != 0 ? 1.0f : 0.0f;
+  const CoveragePlanes& coverage = in.planes.coverage;
+  if (coverage.empty()) return in.styled.anchorIndex(x, y) != 0 ? 1.0f : 0.0f;
   float sum = 0;
-  for (size_t i = 0; i < in.planes.coverageIds.size() && sum < 1.0f; ++i)
-    if (in.planes.coverageIds[i](x, y) != 0) sum += in.planes.coverageShares[i](x, y);
+  for (size_t rank = 0; rank < coverage.ranks() && sum < 1.0f; ++rank)
+    if (coverage.id(rank, x, y) != 0) sum += coverage.share(rank, x, y);
   return std::min(sum, 1.0f);
 }
 
@@ -141,10 +142,11 @@ class PaperedBeauty : public PaintGround {
 
   /// Most pixels show one thing wholly, or none: the first rank tells.
   void judgeRow(const FinishInput& in, View<const float> alpha, int y) {
-    const bool ranked = !in.planes.coverageIds.empty();
+    const CoveragePlanes& coverage = in.planes.coverage;
+    const bool ranked = !coverage.empty();
     const uint16_t* const things = in.styled.anchorIndex.row(y);
-    const uint32_t* const ids = ranked ? in.planes.coverageIds[0].row(y) : nullptr;
-    const float* const shares = ranked ? in.planes.coverageShares[0].row(y) : nullptr;
+    const uint32_t* const ids = ranked ? coverage.firstId.row(y) : nullptr;
+    const float* const shares = ranked ? coverage.firstShare.row(y) : nullptr;
     const float* const alphas = alpha.row(y);
     uint8_t* const kinds = kinds_.row(y);
     const int width = kinds_.width();

@@ -9,6 +9,7 @@
 #include "base/glob.h"
 #include "base/nearest_name.h"
 #include "compositor/automatic_method.h"
+#include "compositor/output_layers.h"
 #include "frame/frame_camera.h"
 
 namespace kagefude {
@@ -325,6 +326,7 @@ std::vector<FrameLight> gatherLights(const Look& look, const Sidecar* sidecar,
     checkMethod(look, light, hasCasters);
     sizeByScene(look.scene, light);
     light.readsDepthMap = readsDepthMap(light);
+    light.tellsConfidence = asksFor(look, "confidence." + light.name);
     for (std::string& mask : light.maskChannels) mask = requireMaskChannel(image, mask);
     if (!light.tracedChannel.empty())
       light.tracedChannel = requireMaskChannel(image, light.tracedChannel);

@@ -47,11 +47,12 @@ struct FrameLight {
   V3f towardsFar{0, 0, 0};                ///< a pair's farther mask, from the light's centre
   std::string tracedChannel;              ///< method traced: the visibility itself
   std::optional<DepthMapSource> depthMap;
-  bool readsDepthMap = false;  ///< the method needs or uses it
-  int castPlaces = 0;          ///< method places: masks that are cut from the casters
-  std::string receiver;        ///< methods planar and blob
-  std::filesystem::path blob;  ///< picture of the blob; empty: a soft round one
-  std::string blobNamed;       ///< the key that names it, with its place
+  bool readsDepthMap = false;    ///< the method needs or uses it
+  bool tellsConfidence = false;  ///< whether its layer is asked for
+  int castPlaces = 0;            ///< method places: masks that are cut from the casters
+  std::string receiver;          ///< methods planar and blob
+  std::filesystem::path blob;    ///< picture of the blob; empty: a soft round one
+  std::string blobNamed;         ///< the key that names it, with its place
 };
 
 /// The lights that take part in a frame, in the sidecar's order, then those that only the look

@@ -11,15 +11,21 @@
 namespace kagefude {
 namespace {
 
-// Bytes a pixel. The passes' own planes at their widest moment; what the allocator keeps of one
-// stage while the next begins, and packed chunks under way.
-constexpr size_t ofPasses = 40;
-constexpr size_t ofChange = 32;
+// Bytes a pixel. Surfaces while they are found, and with their joins as they are kept; of a light,
+// visibility as it is and smoothed, its confidence, shade and reach; of strokes, places and joins,
+// and lines while they are drawn; what the allocator keeps of one stage while the next begins, and
+// of composing while a frame is written.
+constexpr size_t ofSurfaces = 9;
+constexpr size_t ofLight = 24;
+constexpr size_t ofStrokes = 3 + 24;
+constexpr size_t ofChange = 8;
+constexpr size_t ofWriting = 32;
 constexpr size_t ofResult = 16;
 constexpr size_t asHalf = 8;
 constexpr size_t ofIds = 4;
 constexpr size_t ofReadingIds = 16;  // two ranks of a Cryptomatte
-constexpr size_t ofEdgeRanks = 32;   // four ranks of a Cryptomatte
+constexpr size_t ofEdgeRanks = 33;   // four ranks of a Cryptomatte, if all are full
+constexpr size_t ofWholeRanks = 24;  // three ranks, as readers other than the fast one hold them
 constexpr size_t ofRanks = 40;       // a Cryptomatte that is ranked anew
 
 // A ground of its own (widest: a painted sky, tooth on the world): the paint before things met, the
@@ -27,6 +33,7 @@ constexpr size_t ofRanks = 40;       // a Cryptomatte that is ranked anew
 // and what pixels at borders know, a third of all at most.
 constexpr size_t ofGround = 56, ofPaintedEdges = 46 + 38;
 constexpr size_t ofTint = 12;
+constexpr size_t ofTone = 4;
 constexpr size_t ofOwnLights = 60;      // three pictures, a tone and an index
 constexpr size_t ofSmoothNormals = 28;  // and the means of one width
 
@@ -48,6 +55,25 @@ size_t groundBytes(const Look& look) {
       anyPasses(look, [](const PassParams& p) { return p.brush.smoothNormals > 0; });
   return (ground ? ofGround : 0) + (edges ? ofPaintedEdges : 0) + (tint ? ofTint : 0) +
          (smooth ? 2 * ofSmoothNormals : 0);
+}
+
+/// Planes that are read and kept as floats, or were made of such.
+size_t floatBytes(const FramePlan& plan) {
+  size_t floats = 4 * (3 + 3);
+  if (plan.spaces.rebuilt) floats += 4 * (1 + 3);  // the depth, and what it would be otherwise
+  if (plan.albedo) floats += 4 * 3;
+  if (plan.rest) floats += 4 * (4 + 3);  // and the places that it gives
+  if (plan.uv) floats += 4 * 2;
+  if (plan.uv && !plan.rest) floats += 4 * 3;
+  if (plan.instanceRandom) floats += 4;
+  if (plan.emission) floats += 4 * 3;
+  if (plan.beauty) floats += 4 * 4;
+  if (!plan.lines.empty()) floats += 4 * 4;
+  if (!plan.meanNormal.empty()) floats += 4 * 3;
+  if (plan.depth) floats += 4;
+  for (const FrameLight& light : plan.lights)
+    if (!light.tracedChannel.empty()) floats += 4;
+  return floats;
 }
 
 size_t inputBytes(const FramePlan& plan) {
@@ -125,37 +151,31 @@ size_t frameMemory(const Look& look, const FramePlan& plan,
     masks += light.maskChannels.size();
     methods = std::max(methods, methodBytes(light));
   }
-  size_t floats = 4 * (3 + 3);
-  if (plan.spaces.rebuilt) floats += 4 * (1 + 3);  // the depth, and what it would be otherwise
-  if (plan.albedo) floats += 4 * 3;
-  if (plan.rest) floats += 4 * (4 + 3);  // and the places that it gives
-  if (plan.uv) floats += 4 * 2;
-  if (plan.uv && !plan.rest) floats += 4 * 3;
-  if (plan.instanceRandom) floats += 4;
-  if (plan.emission) floats += 4 * 3;
-  if (plan.beauty) floats += 4 * 4;
-  if (!plan.lines.empty()) floats += 4 * 4;
-  if (!plan.meanNormal.empty()) floats += 4 * 3;
+  const size_t floats = floatBytes(plan);
   const size_t ids = plan.materialId ? 2 * ofIds : ofIds;
   const size_t layers = layerBytes(look, plan.lights);
   const size_t edges = plan.coverage ? ofEdgeRanks : 0;
-  const size_t tones = 4 * plan.lights.size() + (paintsOwnLights(look, plan) ? ofOwnLights : 0);
+  const size_t tones = 4 * plan.lights.size();
+  const size_t own = paintsOwnLights(look, plan) ? ofOwnLights : 0;
   const size_t input = inputBytes(plan);
   const size_t passed = look.output.passthrough ? input : 0;
 
-  // Readers other than the fast one hold masks as floats first.
-  const size_t reading = floats + 5 * masks + ids + ofReadingIds + edges;
+  // Readers other than the fast one hold masks as floats first, and sparse ranks whole.
+  const size_t reading =
+      floats + 5 * masks + ids + ofReadingIds + edges + (plan.coverage ? ofWholeRanks : 0);
   const auto area = static_cast<size_t>(look.output.scale) * static_cast<size_t>(look.output.scale);
   const size_t scaling = area > 1 ? ofIds + (ofResult + layers + ofIds) / area : 0;
-  const size_t composing = floats + masks + ids + ofPasses + ofResult + layers + edges + tones +
-                           methods + scaling + groundBytes(look);
+  const size_t composed = floats + edges + layers + tones + ofTone;
+  const size_t lighting = composed + masks + ids + ofSurfaces + ofLight + methods;
+  const size_t painting =
+      composed + ofStrokes + ofIds + ofResult + own + scaling + groundBytes(look);
   const size_t written = (ofResult + asHalf + layers) / area;
   const size_t writing = written + passed + (area > 1 ? passed / area + ofRanks : 0);
   const size_t pixels =
       static_cast<size_t>(plan.image.width) * static_cast<size_t>(plan.image.height);
-  const size_t before = std::max(reading, composing) * pixels;
-  const size_t after = writing * pixels + pictureBytes(plan, pictures) / area;
-  return std::max(before, after) + ofChange * pixels + depthMapBytes(plan) + casterBytes(plan) +
+  const size_t before = (std::max({reading, lighting, painting}) + ofChange) * pixels;
+  const size_t after = (writing + ofWriting) * pixels + pictureBytes(plan, pictures) / area;
+  return std::max(before, after) + depthMapBytes(plan) + casterBytes(plan) +
          chunkBytes(plan, std::max(input, asHalf + layers + passed));
 }
 

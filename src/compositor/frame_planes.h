@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compositor/casting_scene.h"
+#include "frame/coverage_planes.h"
 #include "image/vec.h"
 
 namespace kagefude {
@@ -38,12 +39,11 @@ struct FramePlanes {
   Floats emission;  ///< luminance of what surfaces give off themselves
   Vec3Plane lines;  ///< drawn lines that lie over everything, associated, and their alpha
   Floats linesAlpha;
-  Floats depth;                        ///< only for outlines where no camera is known
-  std::vector<Labels> coverageIds;     ///< Cryptomatte of objects by rank, for clean edges
-  std::vector<Floats> coverageShares;  ///< how much of the pixel each covers
-  Vec3Plane meanNormal;                ///< of all samples of the pixel, through the beauty's filter
-  std::vector<LightPlanes> lights;     ///< in the order of the plan's lights
-  std::optional<CameraRays> rays;      ///< where the camera is known
+  Floats depth;                     ///< only for outlines where no camera is known
+  CoveragePlanes coverage;          ///< Cryptomatte of objects, for clean edges
+  Vec3Plane meanNormal;             ///< of all samples of the pixel, through the beauty's filter
+  std::vector<LightPlanes> lights;  ///< in the order of the plan's lights
+  std::optional<CameraRays> rays;   ///< where the camera is known
   std::shared_ptr<const CastingScene> casting;  ///< null when no light needs it
   std::vector<std::string> warnings;            ///< what is doubted about the pixels
   std::vector<std::string> meanWarnings;        ///< of the mean normals: where the look uses them

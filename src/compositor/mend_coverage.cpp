@@ -5,21 +5,15 @@
 #include <algorithm>
 #include <numeric>
 
-#include "frame/sanitise.h"
 #include "image/parallel.h"
 #include "passes/edges/coverage_blend.h"
 
 namespace kagefude {
 namespace {
 
-struct Ranks {
-  std::vector<Labels>& ids;
-  std::vector<Floats>& shares;
-};
-
-bool isCovered(const Ranks& ranks, int x, int y) {
-  for (size_t i = 0; i < ranks.ids.size(); ++i)
-    if (ranks.ids[i](x, y) != 0 && ranks.shares[i](x, y) >= smallestShare) return true;
+bool isCovered(const CoveragePlanes& coverage, int x, int y) {
+  for (size_t rank = 0; rank < coverage.ranks(); ++rank)
+    if (coverage.id(rank, x, y) != 0 && coverage.share(rank, x, y) >= smallestShare) return true;
   return false;
 }
 
@@ -46,12 +40,12 @@ size_t countPixels(View<const float> picture, const Is& is) {
 
 /// `seen` gives what stands at a pixel's centre, 0 for nothing; `named` its id in the ranks.
 template <class Seen, class Named>
-MendedCoverage mend(const Ranks& ranks, const Seen& seen, const Named& named) {
+MendedCoverage mend(CoveragePlanes& coverage, const Seen& seen, const Named& named) {
   MendedCoverage mended;
-  if (ranks.ids.empty()) return mended;
-  mended.impossible = clearImpossibleCoverage(ranks.shares);
-  const View<const float> picture = ranks.shares.front();
-  const auto bare = [&](int x, int y) { return seen(x, y) != 0 && !isCovered(ranks, x, y); };
+  if (coverage.empty()) return mended;
+  mended.impossible = clearImpossibleCoverage(coverage);
+  const View<const float> picture = coverage.firstShare;
+  const auto bare = [&](int x, int y) { return seen(x, y) != 0 && !isCovered(coverage, x, y); };
   const auto damaged = [&](int x, int y) {
     return bare(x, y) && isInside(seen, picture, x, y) && named(seen(x, y)) != 0;
   };
@@ -59,8 +53,8 @@ MendedCoverage mend(const Ranks& ranks, const Seen& seen, const Named& named) {
   mended.none = countPixels(picture, [&](int x, int y) {
     const uint32_t id = bare(x, y) ? named(seen(x, y)) : 0;
     if (id == 0) return false;
-    ranks.ids.front()(x, y) = id;
-    ranks.shares.front()(x, y) = 1.0f;
+    coverage.firstId(x, y) = id;
+    coverage.firstShare(x, y) = 1.0f;
     return true;
   });
   return mended;
@@ -70,16 +64,14 @@ MendedCoverage mend(const Ranks& ranks, const Seen& seen, const Named& named) {
 
 MendedCoverage mendCoverage(const FramePlan& plan, FramePlanes& planes) {
   return mend(
-      Ranks{planes.coverageIds, planes.coverageShares},
-      [&](int x, int y) { return planes.objectId(x, y); },
+      planes.coverage, [&](int x, int y) { return planes.objectId(x, y); },
       [&](uint32_t object) { return plan.cryptomatteIdOf(object); });
 }
 
-MendedCoverage mendNamed(const Vec3Plane& normal, CryptomattePlanes& matte) {
-  if (matte.ids.empty()) return {};
+MendedCoverage mendNamed(const Vec3Plane& normal, CoveragePlanes& matte) {
   return mend(
-      Ranks{matte.ids, matte.coverage},
-      [&](int x, int y) { return normal.view()(x, y) == V3f(0.0f) ? 0u : matte.ids.front()(x, y); },
+      matte,
+      [&](int x, int y) { return normal.view()(x, y) == V3f(0.0f) ? 0u : matte.firstId(x, y); },
       [](uint32_t id) { return id; });
 }
 

@@ -5,7 +5,7 @@
 
 #include "compositor/frame_plan.h"
 #include "compositor/frame_planes.h"
-#include "frame/cryptomatte.h"
+#include "frame/coverage_planes.h"
 
 namespace kagefude {
 
@@ -25,7 +25,7 @@ MendedCoverage mendCoverage(const FramePlan& plan, FramePlanes& planes);
 
 /// The same of a Cryptomatte that the ids themselves are made from: what is seen is the first
 /// rank's id, where there is a normal.
-MendedCoverage mendNamed(const Vec3Plane& normal, CryptomattePlanes& matte);
+MendedCoverage mendNamed(const Vec3Plane& normal, CoveragePlanes& matte);
 
 /// Says it, once for each Cryptomatte.
 void noteMended(const std::string& name, const MendedCoverage& mended,

@@ -32,7 +32,7 @@ namespace {
 
 /// Ids as they are read: a Cryptomatte's ranks, or an index pass as numbers.
 struct RequestedIds {
-  CryptomattePlanes matte;
+  CoveragePlanes matte;
   Floats index;
   Labels whole;  ///< an index pass of whole numbers, which a float would round above 2^24
 };
@@ -50,7 +50,7 @@ bool isWhole(const ImageFile& file, const std::string& channelName) {
 
 void requestIds(ChannelReader& reader, const Aov& aov, IdSource source, RequestedIds& ids) {
   if (source == IdSource::cryptomatte)
-    ids.matte = requestCryptomatte(reader, aov.name, dominantRanks);
+    requestCoverage(reader, aov.name, dominantRanks, ids.matte);
   else if (isWhole(reader.file(), aov.channels.at(0)))
     reader.bits(aov.channels.at(0), ids.whole);
   else
@@ -82,6 +82,13 @@ Floats luminancesOf(const Vec3Plane& colour) {
       }
   });
   return result;
+}
+
+/// An alpha that is 1 everywhere says no more than none.
+bool isOpaque(const Floats& alpha) {
+  if (alpha.empty()) return false;
+  const float* const pixels = alpha.row(0);
+  return std::all_of(pixels, pixels + alpha.view().pixels(), [](float a) { return a == 1.0f; });
 }
 
 /// A pixel without a normal shows no surface, whatever its id says.
@@ -132,11 +139,14 @@ void checkSpaces(const FramePlan& plan, FramePlanes& planes) {
     planes.warnings.push_back(std::move(outside));
 }
 
+void clearIds(const std::set<uint32_t>& unpainted, std::span<uint32_t> ids) {
+  for (uint32_t& id : ids)
+    if (unpainted.count(id)) id = 0;
+}
+
 void clearIds(const std::set<uint32_t>& unpainted, View<uint32_t> ids) {
   parallelRows(ids.height, [&](int first, int end) {
-    for (int y = first; y < end; ++y)
-      for (int x = 0; x < ids.width; ++x)
-        if (unpainted.count(ids(x, y))) ids(x, y) = 0;
+    clearIds(unpainted, std::span(ids.row(first), ids.row(end)));
   });
 }
 
@@ -163,7 +173,10 @@ void clearUnpainted(const FramePlan& plan, FramePlanes& planes) {
     }
   if (unpainted.empty()) return;
   clearIds(unpainted, planes.objectId.view());
-  for (Labels& rank : planes.coverageIds) clearIds(inCryptomatte, rank.view());
+  if (planes.coverage.empty()) return;
+  clearIds(inCryptomatte, planes.coverage.firstId.view());
+  for (SparsePlane& ids : planes.coverage.otherIds)
+    for (int y = 0; y < ids.height(); ++y) clearIds(inCryptomatte, ids.keptOf(y));
 }
 
 void noteUnseen(const FramePlan& plan, FramePlanes& planes) {
@@ -213,8 +226,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   RequestedIds objects, materials;
   requestIds(reader, plan.objectId, plan.idSource, objects);
   if (plan.materialId) requestIds(reader, *plan.materialId, plan.materialSource, materials);
-  CryptomattePlanes coverage;
-  if (plan.coverage) coverage = requestCryptomatte(reader, plan.coverage->name, edgeRanks);
+  if (plan.coverage) requestCoverage(reader, plan.coverage->name, edgeRanks, planes.coverage);
   if (!plan.meanNormal.empty()) {
     reader.floats(plan.meanNormal[0], planes.meanNormal.x);
     reader.floats(plan.meanNormal[1], planes.meanNormal.y);
@@ -240,8 +252,6 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   planes.objectId = idsFrom(objects, plan.idSource, plan.objectId, planes);
   if (plan.materialId)
     planes.materialId = idsFrom(materials, plan.materialSource, *plan.materialId, planes);
-  planes.coverageIds = std::move(coverage.ids);
-  planes.coverageShares = std::move(coverage.coverage);
   const auto wantsScene = [](const FrameLight& light) {
     return entryOf(light.method).needs.camera;
   };
@@ -254,6 +264,7 @@ FramePlanes readFramePlanes(const FramePlan& plan) {
   if (plan.emission) planes.emission = luminancesOf(emission);
   multiplyStraightBeauty(plan, planes);
   planes.badBeauty = clearNonFiniteColour(planes.beauty, planes.alpha.view());
+  if (isOpaque(planes.alpha)) planes.alpha = {};
   planes.badAlbedo = clearNonFiniteColour(planes.albedo);
   planes.badPixels = clearNonFinite(planes.position, planes.normal, planes.objectId.view());
   clearWithoutNormal(planes);

@@ -270,6 +270,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
   SurfaceIndex index = indexSurfaces(planes);
   const std::vector<VisibleBounds> seen = visibleBounds(look, plan, index, planes.position);
   StyledSurfaces result;
+  result.objects.push_back(0);
   const StyleLook fallback{{}, look.passes};
   std::set<std::string> unbounded;
   OwnLights ownLights(look, strips, plan);
@@ -280,6 +281,7 @@ StyledSurfaces styleSurfaces(const Look& look, const StripSet& strips, const Fra
     const StyleLook& style = found ? *found : fallback;
     const FrameLight& light = lightFor(look, plan, style);
     const uint32_t object = index.surfaces[number - 1].object;
+    result.objects.push_back(object);
     BrushParams brush = style.passes.brush;
     const bool atRest = grounds.choose(number, object, brush);
     BrushSubject subject =

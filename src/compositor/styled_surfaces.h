@@ -33,6 +33,7 @@ struct StyledSurfaces {
   std::vector<bool> fitting;    ///< each style of the look: whether it fits a surface that is seen
   std::vector<bool> outranked;  ///< and whether one of higher priority paints such a surface
   Plane<uint16_t> anchorIndex;  ///< 0 = background, i -> anchors[i - 1]
+  std::vector<uint32_t> objects;  ///< by anchorIndex: whose surface it is; the background's is 0
   std::vector<BrushAnchor> anchors;
   Vec3Plane rest;           ///< places at rest of the anchors that lie there; empty where none does
   std::vector<int> styles;  ///< per anchor: place in the look's list, -1: none matches

@@ -24,9 +24,9 @@ std::map<uint32_t, std::string> namesOfCovering(const FramePlan& plan) {
 /// Adds what covers a pixel and is not its own thing; ranks fall.
 void addForeign(const FramePlanes& planes, int x, int y, uint32_t own,
                 std::map<uint32_t, double>& covered) {
-  for (size_t rank = 0; rank < planes.coverageIds.size(); ++rank) {
-    const uint32_t id = planes.coverageIds[rank](x, y);
-    const float share = planes.coverageShares[rank](x, y);
+  for (size_t rank = 0; rank < planes.coverage.ranks(); ++rank) {
+    const uint32_t id = planes.coverage.id(rank, x, y);
+    const float share = planes.coverage.share(rank, x, y);
     if (!(share >= smallestShare)) return;
     if (id != 0 && id != own) covered[id] += double{share};
   }
@@ -35,14 +35,14 @@ void addForeign(const FramePlanes& planes, int x, int y, uint32_t own,
 }  // namespace
 
 std::vector<std::string> unseenThings(const FramePlan& plan, const FramePlanes& planes) {
-  if (planes.coverageIds.empty()) return {};
+  if (planes.coverage.empty()) return {};
   std::set<uint32_t> seen;
   std::map<uint32_t, double> covered;
   uint32_t object = 0, own = 0;
   for (int y = 0; y < planes.height; ++y) {
     const uint32_t* const objects = planes.objectId.row(y);
-    const uint32_t* const first = planes.coverageIds[0].row(y);
-    const float* const share = planes.coverageShares[0].row(y);
+    const uint32_t* const first = planes.coverage.firstId.row(y);
+    const float* const share = planes.coverage.firstShare.row(y);
     for (int x = 0; x < planes.width; ++x) {
       if (objects[x] != object) {
         object = objects[x];

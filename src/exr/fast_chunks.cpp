@@ -56,6 +56,7 @@ class FirstFailure {
 
 /// The row of a plane that holds samples just as the file does, or null if they are converted.
 uint8_t* rawRow(const ExrTarget& target, ExrType type, int y) {
+  if (target.sparse) return nullptr;
   return std::visit(
       [&](const auto& view) {
         using Pixel = std::remove_reference_t<decltype(*view.data)>;
@@ -102,6 +103,15 @@ void addUnknown(const ExrTarget& target, size_t unknown) {
   if (unknown > 0 && target.unknown) std::atomic_ref(*target.unknown) += unknown;
 }
 
+void toSparse(const ExrKernels& kernels, const ExrTarget& target, const ChannelRun& run,
+              const uint8_t* row, int y) {
+  if (run.type == ExrType::float32 || std::holds_alternative<View<uint32_t>>(target.pixels))
+    return target.sparse->setRow(y, row);
+  std::vector<float> values(run.bytes / static_cast<size_t>(exrTypeBytes(run.type)));
+  toFloats(kernels, run.type, row, values.size(), values.data());
+  target.sparse->setRow(y, values.data());
+}
+
 /// Stores one row of a channel, as it is in the file, in all planes that want it but have not
 /// received it in place.
 void storeRow(const ExrKernels& kernels, const ChannelRun& run, const uint8_t* row, int y) {
@@ -111,7 +121,9 @@ void storeRow(const ExrKernels& kernels, const ChannelRun& run, const uint8_t* r
       continue;
     }
     const size_t n = run.bytes / static_cast<size_t>(exrTypeBytes(run.type));
-    if (const auto* mask = std::get_if<View<uint8_t>>(&target->pixels))
+    if (target->sparse)
+      toSparse(kernels, *target, run, row, y);
+    else if (const auto* mask = std::get_if<View<uint8_t>>(&target->pixels))
       addUnknown(*target, toMask(kernels, run.type, row, n, mask->row(y)));
     else
       toFloats(kernels, run.type, row, n, std::get<View<float>>(target->pixels).row(y));

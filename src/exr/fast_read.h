@@ -10,6 +10,7 @@
 
 #include "exr/fast_types.h"
 #include "image/plane.h"
+#include "image/sparse_plane.h"
 #include "image/window.h"
 
 struct _priv_exr_context_t;
@@ -47,6 +48,8 @@ struct ExrTarget {
   int channel = 0;
   std::variant<View<float>, View<uint32_t>, View<uint16_t>, View<uint8_t>> pixels;
   size_t* unknown = nullptr;  ///< of a mask: here the number of NaN and Inf is added
+  /// Then the pixels of a View<float> or View<uint32_t> go there, and the view gives their size.
+  SparsePlane* sparse = nullptr;
 };
 
 /// A scanline EXR file of lossless zip, zips, rle or no compression, read straight into planes:

@@ -1,7 +1,6 @@
 #include "exr/read_channels.h"
 
 #include <Imath/ImathBox.h>
-#include <Imath/half.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputPart.h>
@@ -12,13 +11,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <utility>
 
 #include "base/error.h"
 #include "base/nearest_name.h"
-#include "exr/fast_kernels.h"
+#include "exr/convert_planes.h"
 #include "exr/fast_read.h"
 #include "image/parallel.h"
 
@@ -36,18 +34,20 @@ const Channel& requireChannel(const ImageFile& file, const std::string& name) {
       fmt::format("{} has no channel {}{}", file.path.string(), name, didYouMean(name, names)));
 }
 
-const Window& partWindow(const ImageFile& file, const Channel& channel) {
-  return file.parts[static_cast<size_t>(channel.part)].dataWindow;
+const Channel& requireIdChannel(const ImageFile& file, const std::string& name) {
+  const Channel& channel = requireChannel(file, name);
+  if (channel.type == PixelType::half)
+    throw InputError(
+        fmt::format("{} stores the id channel {} as half float, which destroys ids; render or "
+                    "convert it again with 32-bit float",
+                    file.path.string(), channel.name));
+  return channel;
 }
 
 Imf::PixelType fileType(PixelType type) {
   if (type == PixelType::half) return Imf::HALF;
   return type == PixelType::uint ? Imf::UINT : Imf::FLOAT;
 }
-
-size_t bytesOf(PixelType type) { return type == PixelType::half ? 2 : 4; }
-
-size_t bytesOf(const PlaneTarget& target) { return target.mask ? 1 : bytesOf(target.type); }
 
 Imf::FrameBuffer frameBufferOf(const ImageFile& file, int part,
                                std::span<const PlaneTarget> targets) {
@@ -98,9 +98,10 @@ ExrTarget fastTarget(const ExrPart& part, const Window& window, const PlaneTarge
     return {channel, View<uint16_t>(static_cast<uint16_t*>(target.pixels), w, h)};
   }
   if (target.type == PixelType::uint) {
-    return {channel, View<uint32_t>(static_cast<uint32_t*>(target.pixels), w, h)};
+    return {channel, View<uint32_t>(static_cast<uint32_t*>(target.pixels), w, h), nullptr,
+            target.sparse};
   }
-  return {channel, View<float>(static_cast<float*>(target.pixels), w, h)};
+  return {channel, View<float>(static_cast<float*>(target.pixels), w, h), nullptr, target.sparse};
 }
 
 // False when the part is not of the plain kind that the fast path reads.
@@ -123,47 +124,6 @@ bool readFast(const FastExr& fast, const ImageFile& file, int number,
   return true;
 }
 
-void toMask(const float* values, size_t pixels, const PlaneTarget& mask) {
-  const size_t unknown = fastestExrKernels().floatToMask(
-      reinterpret_cast<const uint8_t*>(values), pixels, static_cast<uint8_t*>(mask.pixels));
-  if (mask.unknown) *mask.unknown += unknown;
-}
-
-// `from` has the channel's own type, or both have the same.
-void copyPlane(const PlaneTarget& from, const PlaneTarget& to, size_t pixels) {
-  if (from.type == to.type && from.mask == to.mask) {
-    std::memcpy(to.pixels, from.pixels, pixels * bytesOf(from));
-    if (to.unknown && from.unknown) *to.unknown = *from.unknown;
-  } else if (to.mask) {
-    std::vector<float> values(pixels);
-    copyPlane(from, {to.channel, PixelType::single, values.data()}, pixels);
-    toMask(values.data(), pixels, to);
-  } else if (from.type == PixelType::half) {
-    const auto* halves = static_cast<const uint16_t*>(from.pixels);
-    std::transform(halves, halves + pixels, static_cast<float*>(to.pixels), imath_half_to_float);
-  } else {
-    const auto* words = static_cast<const uint32_t*>(from.pixels);
-    std::transform(words, words + pixels, static_cast<float*>(to.pixels),
-                   [](uint32_t word) { return static_cast<float>(word); });
-  }
-}
-
-// Lays a part's own window into a plane of the file's, with zeros around it, round a mask ones.
-void placePlane(const ImageFile& file, const PlaneTarget& own, const PlaneTarget& whole) {
-  const Window& from = partWindow(file, *own.channel);
-  const Window& to = file.dataWindow;
-  const size_t bytes = bytesOf(own);
-  const auto* source = static_cast<const std::byte*>(own.pixels);
-  auto* target = static_cast<std::byte*>(whole.pixels);
-  const size_t sourceRow = static_cast<size_t>(from.width) * bytes;
-  const size_t targetRow = static_cast<size_t>(to.width) * bytes;
-  std::memset(target, whole.mask ? 1 : 0, targetRow * static_cast<size_t>(to.height));
-  target +=
-      static_cast<size_t>(from.y - to.y) * targetRow + static_cast<size_t>(from.x - to.x) * bytes;
-  for (int y = 0; y < from.height; ++y, source += sourceRow, target += targetRow)
-    std::memcpy(target, source, sourceRow);
-}
-
 // Reads into planes of the file's data window. Parts that cover all of it go there straight.
 void readJoined(const ImageFile& file, std::span<const PlaneTarget> targets) {
   std::vector<PlaneTarget> own(targets.begin(), targets.end());
@@ -173,23 +133,26 @@ void readJoined(const ImageFile& file, std::span<const PlaneTarget> targets) {
     if (window == file.dataWindow) continue;
     cropped.emplace_back(i, static_cast<size_t>(window.pixels()) * bytesOf(own[i]));
     own[i].pixels = cropped.back().second.data();
+    own[i].sparse = nullptr;
   }
   readPlanes(file, own);
   for (const auto& entry : cropped) placePlane(file, own[entry.first], targets[entry.first]);
 }
 
-// For readers that know no masks: reads these as floats first.
+// For readers that know nothing but whole planes of samples: reads the others as such first.
 template <class Read>
-void readMasksAsFloats(const ImageFile& file, std::vector<PlaneTarget> targets, const Read& read) {
-  std::vector<std::pair<PlaneTarget, Floats>> masks;
+void readWholePlanes(const ImageFile& file, std::vector<PlaneTarget> targets, const Read& read) {
+  std::vector<std::pair<PlaneTarget, Labels>> others;
   for (PlaneTarget& target : targets) {
-    if (!target.mask) continue;
+    if (!target.mask && !target.sparse) continue;
     const Window& window = partWindow(file, *target.channel);
-    masks.emplace_back(target, Floats(window.width, window.height));
-    target = {target.channel, PixelType::single, masks.back().second.row(0)};
+    others.emplace_back(target, Labels(window.width, window.height));
+    target = {target.channel, target.type, others.back().second.row(0)};
   }
   read(targets);
-  for (const auto& [mask, values] : masks) toMask(values.row(0), values.view().pixels(), mask);
+  for (auto& [target, words] : others)
+    copyPlane({target.channel, target.type, words.row(0)}, target,
+              partWindow(file, *target.channel));
 }
 
 // Reads one part with whatever reads files of its kind. `fast` is that of the part's file.
@@ -201,7 +164,7 @@ void readPartPlanes(const ImageFile& file, int number, const std::optional<FastE
   std::copy_if(targets.begin(), targets.end(), std::back_inserter(own),
                [&](const PlaneTarget& target) { return target.channel->part == number; });
   if (own.empty()) return;
-  readMasksAsFloats(file, std::move(own), [&](std::span<const PlaneTarget> plain) {
+  readWholePlanes(file, std::move(own), [&](std::span<const PlaneTarget> plain) {
     if (part.source)
       part.source->read(plain);
     else
@@ -239,16 +202,21 @@ void ChannelReader::floats(const std::string& channelName, Floats& plane) {
 }
 
 void ChannelReader::bits(const std::string& channelName, Labels& plane) {
-  const Channel* channel = &requireChannel(file_, channelName);
-  const Window& window = file_.dataWindow;
-  if (channel->type == PixelType::half) {
-    throw InputError(
-        fmt::format("{} stores the id channel {} as half float, which destroys ids; render or "
-                    "convert it again with 32-bit float",
-                    file_.path.string(), channel->name));
-  }
-  plane = Labels(window.width, window.height);
+  const Channel* channel = &requireIdChannel(file_, channelName);
+  plane = Labels(file_.dataWindow.width, file_.dataWindow.height);
   targets_.push_back({channel, channel->type, plane.row(0)});
+}
+
+void ChannelReader::sparseBits(const std::string& channelName, SparsePlane& plane) {
+  const Channel* channel = &requireIdChannel(file_, channelName);
+  plane = SparsePlane(file_.dataWindow.width, file_.dataWindow.height);
+  targets_.push_back({channel, channel->type, nullptr, false, nullptr, &plane});
+}
+
+void ChannelReader::sparseFloats(const std::string& channelName, SparsePlane& plane) {
+  const Channel* channel = &requireChannel(file_, channelName);
+  plane = SparsePlane(file_.dataWindow.width, file_.dataWindow.height);
+  targets_.push_back({channel, PixelType::single, nullptr, false, nullptr, &plane});
 }
 
 void ChannelReader::raw(const std::string& channelName, RawPlane& plane) {
@@ -276,11 +244,11 @@ void ChannelReader::mask(const std::string& channelName, Bytes& plane, size_t& u
 
 void ChannelReader::read() {
   // A channel that is asked for twice is decoded once and converted: from its native type, else
-  // from floats, from a mask never.
+  // from floats, from a sparse plane, from a mask never.
   std::stable_sort(targets_.begin(), targets_.end(),
                    [](const PlaneTarget& a, const PlaneTarget& b) {
                      const auto loss = [](const PlaneTarget& t) {
-                       return t.mask ? 2 : t.type == t.channel->type ? 0 : 1;
+                       return t.mask ? 3 : t.sparse ? 2 : t.type == t.channel->type ? 0 : 1;
                      };
                      return loss(a) < loss(b);
                    });
@@ -297,7 +265,7 @@ void ChannelReader::read() {
   }
   readJoined(file_, unique);
   for (const auto& [from, to] : copies) {
-    copyPlane(from, to, static_cast<size_t>(file_.dataWindow.pixels()));
+    copyPlane(from, to, file_.dataWindow);
   }
   targets_.clear();
 }

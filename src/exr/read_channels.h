@@ -6,6 +6,7 @@
 
 #include "exr/image_file.h"
 #include "image/plane.h"
+#include "image/sparse_plane.h"
 
 namespace kagefude {
 
@@ -46,6 +47,8 @@ struct PlaneTarget {
   /// PartSource never sees such a target.
   bool mask = false;
   size_t* unknown = nullptr;  ///< of a mask: here the number of its NaN and Inf is added
+  /// Then pixels go there, as `type`, which has 4 bytes. A PartSource never sees such a target.
+  SparsePlane* sparse = nullptr;
 };
 
 /// Collects channels of one frame so that each chunk of the file is decoded once for all of them.
@@ -57,6 +60,9 @@ class ChannelReader {
   explicit ChannelReader(const ImageFile& file) : file_(file) {}
   void floats(const std::string& channelName, Floats& plane);
   void bits(const std::string& channelName, Labels& plane);
+  /// The same of channels that are 0 nearly everywhere. The plane must stay where it is.
+  void sparseFloats(const std::string& channelName, SparsePlane& plane);
+  void sparseBits(const std::string& channelName, SparsePlane& plane);
   void raw(const std::string& channelName, RawPlane& plane);
   /// A hard mask: 1 where the channel is at least 0.5, else 0. Where it is NaN or Inf, and beyond
   /// its part's window, nothing is known: that is 1, lit, for no shadow shall be made up. read()

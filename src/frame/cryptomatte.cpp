@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "frame/aov_names.h"
+#include "frame/coverage_planes.h"
 #include "frame/frame_view.h"
 #include "image/parallel.h"
 
@@ -213,6 +214,22 @@ CryptomattePlanes requestCryptomatte(ChannelReader& reader, std::string_view nam
   planes.names = std::move(manifest.names);
   planes.warnings = std::move(manifest.warnings);
   return planes;
+}
+
+void requestCoverage(ChannelReader& reader, std::string_view name, int ranks,
+                     CoveragePlanes& coverage) {
+  const ImageFile& file = reader.file();
+  const Cryptomatte found = chooseCryptomatte(file, name);
+  checkConvention(file, found);
+  const size_t count = std::min(found.idChannels.size(), static_cast<size_t>(ranks));
+  reader.bits(found.idChannels[0], coverage.firstId);
+  reader.floats(found.coverageChannels[0], coverage.firstShare);
+  coverage.otherIds.resize(count - 1);
+  coverage.otherShares.resize(count - 1);
+  for (size_t i = 1; i < count; ++i) {
+    reader.sparseBits(found.idChannels[i], coverage.otherIds[i - 1]);
+    reader.sparseFloats(found.coverageChannels[i], coverage.otherShares[i - 1]);
+  }
 }
 
 CryptomattePlanes readCryptomatte(const ImageFile& file, std::string_view name, int ranks) {

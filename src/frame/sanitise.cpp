@@ -68,23 +68,6 @@ size_t clearNonFiniteColour(Vec3Plane& colour, View<float> alpha) {
   });
 }
 
-size_t clearImpossibleCoverage(std::span<Floats> ranks) {
-  if (ranks.empty()) return 0;
-  constexpr float least = -0.5f, most = 1.5f;
-  return countRows(ranks.front().height(), [&](int y) {
-    size_t count = 0;
-    for (int x = 0; x < ranks.front().width(); ++x) {
-      bool good = true;
-      for (const Floats& rank : ranks) good = good && rank(x, y) >= least && rank(x, y) <= most;
-      if (good) continue;
-      for (Floats& rank : ranks) rank(x, y) = 0.0f;
-      ranks.front()(x, y) = 1.0f;
-      ++count;
-    }
-    return count;
-  });
-}
-
 size_t clearNoDepth(View<float> depth) {
   return countRows(depth.height, [&](int y) {
     float* const row = depth.row(y);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 
 #include "image/plane.h"
 #include "image/vec.h"
@@ -16,11 +15,6 @@ size_t clearNonFinite(Vec3Plane& position, Vec3Plane& normal, View<uint32_t> lab
 /// Makes pixels of a picture black whose colour is not finite, and transparent where its alpha
 /// (which may be empty) is not. Returns how many pixels that were. Cost: one pass.
 size_t clearNonFiniteColour(Vec3Plane& colour, View<float> alpha = {});
-
-/// Cleans a Cryptomatte's coverage by rank: a pixel with one that is not finite, below -0.5 or
-/// above 1.5 becomes wholly its first id. What lies between is kept as it is, for filters with
-/// negative lobes overshoot at edges (Lanczos by a fifth). Returns how many pixels that were.
-size_t clearImpossibleCoverage(std::span<Floats> ranks);
 
 /// Makes texels of a depth map that are no depth, NaN and -Inf, the 1e10 of nothing hit; +Inf is
 /// that already, in halves and from some renderers. Returns how many those were.

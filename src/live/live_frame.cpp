@@ -31,8 +31,9 @@ size_t bytesOf(const FramePlanes& planes) {
                               &planes.alpha, &planes.linesAlpha, &planes.depth})
     bytes += of(*plane);
   for (const Labels* plane : {&planes.objectId, &planes.materialId}) bytes += of(*plane);
-  for (const Labels& plane : planes.coverageIds) bytes += of(plane);
-  for (const Floats& plane : planes.coverageShares) bytes += of(plane);
+  bytes += of(planes.coverage.firstId) + of(planes.coverage.firstShare);
+  for (const auto* ranks : {&planes.coverage.otherIds, &planes.coverage.otherShares})
+    for (const SparsePlane& plane : *ranks) bytes += plane.bytes();
   for (const LightPlanes& light : planes.lights) {
     for (const Bytes& mask : light.masks) bytes += of(mask);
     bytes += of(light.traced) + of(light.depthMap);

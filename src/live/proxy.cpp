@@ -10,19 +10,33 @@ namespace {
 
 int samplesOf(int pixels, int step) { return std::max(1, (pixels - step / 2 + step - 1) / step); }
 
+/// Where a sample is taken.
+int placeOf(int sample, int step, int pixels) {
+  return std::min(sample * step + step / 2, pixels - 1);
+}
+
 template <class T>
 Plane<T> sample(const Plane<T>& plane, int step) {
   if (plane.empty()) return {};
   Plane<T> result(samplesOf(plane.width(), step), samplesOf(plane.height(), step));
-  const auto place = [step](int at, int pixels) {
-    return std::min(at * step + step / 2, pixels - 1);
-  };
   parallelRows(result.height(), [&](int first, int end) {
     for (int y = first; y < end; ++y) {
-      const T* const row = plane.row(place(y, plane.height()));
-      for (int x = 0; x < result.width(); ++x) result(x, y) = row[place(x, plane.width())];
+      const T* const row = plane.row(placeOf(y, step, plane.height()));
+      for (int x = 0; x < result.width(); ++x) result(x, y) = row[placeOf(x, step, plane.width())];
     }
   });
+  return result;
+}
+
+SparsePlane sample(const SparsePlane& plane, int step) {
+  SparsePlane result(samplesOf(plane.width(), step), samplesOf(plane.height(), step));
+  std::vector<uint32_t> row(static_cast<size_t>(result.width()));
+  for (int y = 0; y < result.height(); ++y) {
+    for (int x = 0; x < result.width(); ++x)
+      row[static_cast<size_t>(x)] =
+          plane(placeOf(x, step, plane.width()), placeOf(y, step, plane.height()));
+    result.setRow(y, row.data());
+  }
   return result;
 }
 
@@ -39,6 +53,11 @@ std::vector<T> sample(const std::vector<T>& planes, int step) {
   std::vector<T> result;
   for (const T& plane : planes) result.push_back(sample(plane, step));
   return result;
+}
+
+CoveragePlanes sample(const CoveragePlanes& coverage, int step) {
+  return {sample(coverage.firstId, step), sample(coverage.firstShare, step),
+          sample(coverage.otherIds, step), sample(coverage.otherShares, step)};
 }
 
 LightPlanes sample(const LightPlanes& light, int step) {
@@ -81,8 +100,7 @@ FramePlanes sampleFrame(const FramePlanes& planes, int step) {
     result.*floats = sample(planes.*floats, step);
   result.objectId = sample(planes.objectId, step);
   result.materialId = sample(planes.materialId, step);
-  result.coverageIds = sample(planes.coverageIds, step);
-  result.coverageShares = sample(planes.coverageShares, step);
+  result.coverage = sample(planes.coverage, step);
   for (const LightPlanes& light : planes.lights) result.lights.push_back(sample(light, step));
   if (planes.rays) result.rays = sample(*planes.rays, step);
   result.casting = planes.casting;

@@ -80,7 +80,7 @@ TEST_F(DamagedEdges, ThingsWithoutAnyCoverageCoverTheirPixels) {
     frame.plane("CryptoObject00.g").fill(coverage);
     const FramePlanes planes = read();
     for (int y = 0; y < 8; ++y)
-      for (int x = 0; x < 8; ++x) EXPECT_EQ(planes.coverageShares[0](x, y), 1.0f) << coverage;
+      for (int x = 0; x < 8; ++x) EXPECT_EQ(planes.coverage.share(0, x, y), 1.0f) << coverage;
     expectSaid("64 pixels");
   }
 }
@@ -98,7 +98,7 @@ TEST_F(DamagedEdges, ARimThatAllSamplesMissIsHealthy) {
   for (int y = 0; y < 8; ++y)
     for (int x = 1; x < 8; ++x) index(x, y) = 0.0f;
   frame.plane("CryptoObject00.g").fill(0.0f);
-  EXPECT_EQ(read().coverageShares[0](0, 3), 0.0f);
+  EXPECT_EQ(read().coverage.share(0, 0, 3), 0.0f);
   EXPECT_FALSE(has(comped(), "pixel")) << comped();
 }
 
@@ -107,8 +107,8 @@ TEST_F(DamagedEdges, ImpossibleCoverageIsWhollyTheFirstId) {
     frame.plane("CryptoObject00.a")(2, 5) = coverage;
     frame.plane("CryptoObject00.g")(2, 5) = 0.25f;
     const FramePlanes planes = read();
-    EXPECT_EQ(planes.coverageShares[0](2, 5), 1.0f) << coverage;
-    EXPECT_EQ(planes.coverageShares[1](2, 5), 0.0f) << coverage;
+    EXPECT_EQ(planes.coverage.share(0, 2, 5), 1.0f) << coverage;
+    EXPECT_EQ(planes.coverage.share(1, 2, 5), 0.0f) << coverage;
     expectSaid("1 pixel,");
   }
 }
@@ -117,8 +117,8 @@ TEST_F(DamagedEdges, FiltersOvershoot) {
   frame.plane("CryptoObject00.g").fill(1.2f);
   frame.plane("CryptoObject00.a").fill(-0.2f);
   const FramePlanes planes = read();
-  EXPECT_EQ(planes.coverageShares[0](2, 5), 1.2f);
-  EXPECT_EQ(planes.coverageShares[1](2, 5), -0.2f);
+  EXPECT_EQ(planes.coverage.share(0, 2, 5), 1.2f);
+  EXPECT_EQ(planes.coverage.share(1, 2, 5), -0.2f);
   EXPECT_FALSE(has(comped(), "pixel")) << comped();
 }
 

@@ -2,6 +2,7 @@
 
 #include <tbb/global_control.h>
 
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -101,6 +102,59 @@ TEST(ReadChannels, MasksAreTheSameWhateverReadsThemAndWhoeverElseWantsThem) {
         if (others) EXPECT_EQ(std::memcmp(floats.row(0), values.row(0), 4 * 37 * 19), 0) << name;
       }
     }
+  }
+}
+
+/// Zip is decoded by the fast path, PIZ by OpenEXR.
+TEST(ReadChannels, SparsePlanesAreTheSameWhateverReadsThemAndWhoeverElseWantsThem) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "a.exr").string();
+  for (const Imf::Compression codec : {Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
+    writeWithOpenExr(path, {makeTestPart("", {-5, 2, 37, 19}, codec, TestPixels::noise, 3)});
+    const ImageFile file = openImage(path);
+    for (const std::string name : {"R", "Layer.Depth.Z", "Layer.Index.X"}) {
+      const Floats values = std::move(readFloats(file, Names{name}).front());
+      for (const bool others : {false, true}) {
+        ChannelReader reader(file);
+        SparsePlane first, second;
+        Bytes mask;
+        size_t unknown = 0;
+        RawPlane raw;
+        reader.sparseFloats(name, first);
+        if (others) {
+          reader.mask(name, mask, unknown);
+          reader.raw(name, raw);
+        }
+        reader.sparseFloats(name, second);
+        reader.read();
+        for (int y = 0; y < 19; ++y)
+          for (int x = 0; x < 37; ++x) {
+            ASSERT_EQ(first(x, y), std::bit_cast<uint32_t>(values(x, y))) << name << " " << x;
+            ASSERT_EQ(second(x, y), first(x, y)) << name << " " << x;
+          }
+      }
+    }
+  }
+}
+
+TEST(ReadChannels, SparseIdsKeepTheirBitsAndHalvesAreRefused) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "a.exr").string();
+  const auto part = makeTestPart("", {-5, 2, 37, 19}, Imf::ZIP_COMPRESSION, TestPixels::noise, 3);
+  writeWithOpenExr(path, {part});
+  const ImageFile file = openImage(path);
+  for (const Channel& channel : file.channels) {
+    ChannelReader reader(file);
+    SparsePlane sparse;
+    if (channel.type == PixelType::half) {
+      EXPECT_THROW(reader.sparseBits(channel.name, sparse), InputError);
+      continue;
+    }
+    reader.sparseBits(channel.name, sparse);
+    reader.read();
+    const Labels ids = std::move(readBits(file, Names{channel.name}).front());
+    for (int y = 0; y < 19; ++y)
+      for (int x = 0; x < 37; ++x) ASSERT_EQ(sparse(x, y), ids(x, y)) << channel.name;
   }
 }
 

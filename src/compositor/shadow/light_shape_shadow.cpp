@@ -20,10 +20,11 @@ LightVisibility lightShapeShadow(const ShadowWork& work) {
   const FrameLight& light = work.light;
   const FramePlanes& frame = work.frame;
   const LightShapeParams& params = light.passes.lightShape;
-  LightShapeResult shape =
-      lightShapeVisibility(viewsOf(work.planes.masks), light.places, labelsFor(params.bound, work),
-                           frame.position, frame.normal, light.geometry, params);
-  if (!work.planes.depthMap.empty() && params.lightSize > 0 && !shape.unsure.empty()) {
+  const bool hasMap = !work.planes.depthMap.empty() && params.lightSize > 0;
+  LightShapeResult shape = lightShapeVisibility(
+      viewsOf(work.planes.masks), light.places, labelsFor(params.bound, work), frame.position,
+      frame.normal, light.geometry, params, {light.tellsConfidence, hasMap});
+  if (!shape.unsure.empty()) {
     const ShadowMap map{work.planes.depthMap, light.depthMap->lightFromWorld,
                         light.depthMap->clipFromLight};
     holdToMap(placedMasks(work), frame.position, frame.normal, work.surfaces, map,

@@ -53,9 +53,9 @@ LightVisibility placesShadow(const ShadowWork& work) {
   const std::vector<V2f> places = discPlaces(work.light.castPlaces);
   std::vector<Bytes> masks;
   for (const V2f& place : places) masks.push_back(maskFrom(place, geometry, work));
-  LightShapeResult shape =
-      lightShapeVisibility(viewsOf(masks), places, labelsFor(params.bound, work),
-                           work.frame.position, work.frame.normal, geometry, params);
+  LightShapeResult shape = lightShapeVisibility(
+      viewsOf(masks), places, labelsFor(params.bound, work), work.frame.position, work.frame.normal,
+      geometry, params, {work.light.tellsConfidence, false});
   return {std::move(shape.visibility), std::move(shape.confidence)};
 }
 

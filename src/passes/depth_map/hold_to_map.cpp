@@ -99,15 +99,17 @@ void holdToMap(std::span<const PlacedMask> masks, Vec3View position, Vec3View no
       backProject(position, normal, surfaces, map, lightRadius, bias, masks, wanted);
   const Floats doubt = sharesOf(back.contradicted, masks.size());
   const Floats around = smoothWithinSurfaces(doubt, surfaces, SmoothParams{window});
+  const bool told = !shape.confidence.empty();
   const float ofAlike = shareOf(masks.size(), worth);
   const float ofGrazing = shareOf(masks.size(), worthGrazing);
   parallelRows(surfaces.height, [&](int y0, int y1) {
     for (int y = y0; y < y1; ++y)
       for (int x = 0; x < surfaces.width; ++x) {
         if (!wanted(x, y) || surfaces(x, y) == 0) continue;
-        float &visibility = shape.visibility(x, y), &confidence = shape.confidence(x, y);
+        float& visibility = shape.visibility(x, y);
         // Most of the margin: both agree, and nothing is in doubt.
-        if (confidence == 1.0f && back.visibility(x, y) == visibility) continue;
+        const bool sure = !told || shape.confidence(x, y) == 1.0f;
+        if (sure && back.visibility(x, y) == visibility) continue;
         const float borneOut = weightOf(doubt(x, y), around(x, y));
         if (borneOut == 0.0f) continue;
         const float grazing =
@@ -119,7 +121,7 @@ void holdToMap(std::span<const PlacedMask> masks, Vec3View position, Vec3View no
         const bool umbra = visibility == 0.0f && shape.unsure(x, y) == 0;
         const float brightest = umbra ? mostInUmbra : 1.0f;
         visibility += weight * (std::min(back.visibility(x, y), brightest) - visibility);
-        confidence += weight * (1 - confidence);
+        if (told) shape.confidence(x, y) += weight * (1 - shape.confidence(x, y));
       }
   });
 }

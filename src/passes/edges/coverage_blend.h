@@ -1,16 +1,35 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 
 #include "image/plane.h"
+#include "image/sparse_plane.h"
 
 namespace kagefude {
 
+/// What a rank holds at each pixel, of a plane that is kept wholly or sparsely.
+template <class T>
+class RankView {
+ public:
+  RankView(const View<const T>& whole) : whole_(whole) {}
+  RankView(const Plane<T>& whole) : whole_(whole) {}
+  RankView(const SparsePlane& sparse) : sparse_(&sparse) {}
+
+  T operator()(int x, int y) const {
+    return sparse_ ? std::bit_cast<T>((*sparse_)(x, y)) : whole_(x, y);
+  }
+
+ private:
+  View<const T> whole_;
+  const SparsePlane* sparse_ = nullptr;
+};
+
 /// One rank of a Cryptomatte: which thing, and how much of the pixel it covers, 0..1.
 struct CoverageRank {
-  View<const uint32_t> id;
-  View<const float> coverage;
+  RankView<uint32_t> id;
+  RankView<float> coverage;
 };
 
 /// Coverage below counts as none.

@@ -28,7 +28,7 @@ Rgba blended(const InnerEdges& edges, const PaintViews& paint, int x, int y) {
 /// None runs along the frame's border.
 bool InnerEdges::edge(int x, int y, EdgeStep step) const {
   const int qx = x + step.x, qy = y + step.y;
-  if (!s_.ids.contains(x, y) || !s_.ids.contains(qx, qy)) return false;
+  if (!s_.styles.contains(x, y) || !s_.styles.contains(qx, qy)) return false;
   if (s_.styles(x, y) != s_.styles(qx, qy)) return true;
   const bool forward = step.y > 0 || (step.y == 0 && step.x > 0);
   const uint8_t joins = forward ? s_.joins(x, y) : s_.joins(qx, qy);
@@ -42,8 +42,8 @@ bool InnerEdges::edge(int x, int y, EdgeStep step) const {
 
 bool InnerEdges::plain(int x, int y) const {
   constexpr uint8_t all = joinedRight | joinedDown | joinedDownLeft | joinedDownRight;
-  if (s_.ids(x, y) == 0) return true;
-  if (x == 0 || y == 0 || x + 1 == s_.ids.width || y + 1 == s_.ids.height) return false;
+  if (object(x, y) == 0) return true;
+  if (x == 0 || y == 0 || x + 1 == s_.styles.width || y + 1 == s_.styles.height) return false;
   const uint16_t style = s_.styles(x, y);
   return s_.joins(x, y) == all && (s_.joins(x - 1, y) & joinedRight) &&
          (s_.joins(x, y - 1) & joinedDown) && (s_.joins(x + 1, y - 1) & joinedDownLeft) &&
@@ -65,9 +65,9 @@ std::array<double, 8> InnerEdges::shares(int x, int y) const {
 
 /// Whether an edge is one to be blended here.
 bool InnerEdges::blends(int x, int y, EdgeStep step) const {
-  const uint32_t own = s_.ids(x, y);
+  const uint32_t own = object(x, y);
   if (!edge(x, y, step)) return false;
-  const uint32_t other = s_.ids(x + step.x, y + step.y);
+  const uint32_t other = object(x + step.x, y + step.y);
   return own == other || (s_.betweenObjects && other != 0);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 #include "image/vec.h"
 #include "passes/casters/camera_rays.h"
@@ -14,12 +15,12 @@ namespace kagefude {
 
 /// What is known of the surfaces that a picture shows.
 struct EdgeSurfaces {
-  View<const uint32_t> ids;          ///< objects, 0 = background
-  View<const uint16_t> styles;       ///< what paints each pixel; another one is an edge too
-  View<const uint8_t> joins;         ///< JoinedWay, as labelSurfaces keeps them
-  Vec3View normal, position;         ///< world
-  const CameraRays* rays = nullptr;  ///< null: not known
-  bool betweenObjects = false;       ///< whether edges from one object to another are blended here
+  std::span<const uint32_t> objects;  ///< of each style: whose it is; 0 is the background's
+  View<const uint16_t> styles;        ///< what paints each pixel; another one is an edge too
+  View<const uint8_t> joins;          ///< JoinedWay, as labelSurfaces keeps them
+  Vec3View normal, position;          ///< world
+  const CameraRays* rays = nullptr;   ///< null: not known
+  bool betweenObjects = false;        ///< whether edges from one object to another are blended here
 };
 
 /// **[ours]** Clean edges inside objects, of one sample a pixel: every pixel's colour was made for
@@ -51,6 +52,7 @@ class InnerEdges {
   std::array<double, 8> shares(int x, int y) const;
 
  private:
+  uint32_t object(int x, int y) const { return s_.objects[s_.styles(x, y)]; }
   bool edge(int x, int y, EdgeStep step) const;
   bool blends(int x, int y, EdgeStep step) const;
   std::optional<HalfPlane> crease(int x, int y, EdgeStep step) const;

@@ -137,7 +137,7 @@ struct Inputs {
 };
 
 void resolvePixel(const Inputs& in, const ShadowFollow::Band* follow, int x, int y,
-                  float& visibility, float& confidence, uint8_t& unsure) {
+                  float& visibility, float* confidence, uint8_t* unsure) {
   const uint8_t kind = in.classes(x, y);
   if (kind == background) return;
   float height[mostMasks];
@@ -150,9 +150,10 @@ void resolvePixel(const Inputs& in, const ShadowFollow::Band* follow, int x, int
   if (in.wanted.contains(x, y)) {
     const PixelDistances s(in.distances, in.wanted.indexOf(x, y), in.grow);
     if (answer.trust < 1) visibility = in.share.of(s.values());
-    confidence = s.confidence(toFrameEdge(x, y, in.labels.width, in.labels.height));
+    if (confidence)
+      *confidence = s.confidence(toFrameEdge(x, y, in.labels.width, in.labels.height));
   }
-  if (answer.trust > 0) unsure = 1;
+  if (answer.trust > 0 && unsure) *unsure = 1;
   visibility += answer.trust * (answer.visibility - visibility);
 }
 
@@ -163,28 +164,28 @@ void resolveRows(const Inputs& in, int y0, int y1, LightShapeResult& result) {
   const int width = in.labels.width;
   for (int y = y0; y < y1; ++y) {
     const uint8_t* const kinds = in.classes.row(y);
-    float *const visibility = result.visibility.row(y), *const confidence =
-                                                            result.confidence.row(y);
-    uint8_t* const unsure = result.unsure.row(y);
-    for (int x = 0; x < width; ++x) {
-      visibility[x] = kinds[x] == umbra ? 0.0f : 1.0f;
-      confidence[x] = 1.0f;
-      unsure[x] = kinds[x] == penumbra;
-    }
+    float* const visibility = result.visibility.row(y);
+    float* const confidence = result.confidence.empty() ? nullptr : result.confidence.row(y);
+    if (confidence) std::fill_n(confidence, width, 1.0f);
+    uint8_t* const unsure = result.unsure.empty() ? nullptr : result.unsure.row(y);
+    for (int x = 0; x < width; ++x) visibility[x] = kinds[x] == umbra ? 0.0f : 1.0f;
+    for (int x = 0; unsure && x < width; ++x) unsure[x] = kinds[x] == penumbra;
     for (int from = 0; from < width; from += ShadowFollow::run) {
       const int end = std::min(from + ShadowFollow::run, width);
       const auto [first, last] = in.wanted.ends(from, end, y);
       const bool all = follow && follow->mayAnswer(from, y);
       for (int x = all ? from : first; x < (all ? end : last); ++x)
-        resolvePixel(in, follow, x, y, visibility[x], confidence[x], unsure[x]);
+        resolvePixel(in, follow, x, y, visibility[x], confidence ? confidence + x : nullptr,
+                     unsure ? unsure + x : nullptr);
     }
   }
 }
 
-LightShapeResult resolve(const Inputs& in) {
-  LightShapeResult result{{in.labels.width, in.labels.height},
-                          {in.labels.width, in.labels.height},
-                          {in.labels.width, in.labels.height}};
+LightShapeResult resolve(const Inputs& in, const LightShapeWanted& wanted) {
+  const int width = in.labels.width, height = in.labels.height;
+  LightShapeResult result{{width, height}, {}, {}};
+  if (wanted.confidence) result.confidence = Floats(width, height);
+  if (wanted.unsure) result.unsure = Bytes(width, height);
   parallelRows(in.labels.height, bandRows,
                [&](int y0, int y1) { resolveRows(in, y0, y1, result); });
   return result;
@@ -196,7 +197,8 @@ LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks
                                       std::span<const V2f> places, View<const uint32_t> labels,
                                       Vec3View position, Vec3View normal,
                                       const std::optional<LightGeometry>& geometry,
-                                      const LightShapeParams& params) {
+                                      const LightShapeParams& params,
+                                      const LightShapeWanted& asked) {
   requireInputs(masks, places, labels);
   const bool style = hasStyle(params), linear = params.disc == DiscIntegral::linear;
   const float radius = params.lightSize + params.soften;
@@ -215,11 +217,9 @@ LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks
       follow.emplace(masks, places, distances, wanted, labels, position, normal, *geometry, radius);
   }
   const LightShare share(places, linear, radius), horizonShare(places, true, radius);
-  LightShapeResult result =
-      resolve({masks, classes, wanted, labels, distances, share, horizonShare,
-               follow ? &*follow : nullptr, horizon ? &*horizon : nullptr, params.grow});
-  if (style) result.unsure = {};
-  return result;
+  return resolve({masks, classes, wanted, labels, distances, share, horizonShare,
+                  follow ? &*follow : nullptr, horizon ? &*horizon : nullptr, params.grow},
+                 {asked.confidence, asked.unsure && !style});
 }
 
 }  // namespace kagefude

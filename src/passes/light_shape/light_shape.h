@@ -54,19 +54,24 @@ inline constexpr ParameterTable lightShapeTable{
 /// How a place on the light moves in the world, so that shadows can be followed between masks.
 struct LightGeometry {
   bool sun = false;
-  V3f position{0, 0, 0};    ///< world; not for a sun
-  V3f direction{0, 0, -1};  ///< unit, the way the light travels; for a sun only
-  V3f u{0, 0, 0},
-      v{0, 0, 0};       ///< world vectors of one unit of place; a sun's change the way to it
-  bool sphere = false;  ///< the light is round from every side: its disc faces each receiver
+  V3f position{0, 0, 0};       ///< world; not for a sun
+  V3f direction{0, 0, -1};     ///< unit, the way the light travels; for a sun only
+  V3f u{0, 0, 0}, v{0, 0, 0};  ///< world vectors of one unit of place; a sun's change the way to it
+  bool sphere = false;         ///< the light is round from every side: its disc faces each receiver
 };
 
 /// What masks lie on: all with v = 0 are a line; with masks at (±1, ±1) a rectangle; else a disc.
 /// The first mask of a disc or a rectangle is its centre.
 struct LightShapeResult {
   Floats visibility;
-  Floats confidence;  ///< 1 where distances are measured, falling to 0 where they are extrapolated
-  Bytes unsure;  ///< 1 where masks disagree or a shadow was followed; empty with a style
+  /// 1 where distances are measured, falling to 0 where they are extrapolated; empty: not asked for
+  Floats confidence;
+  Bytes unsure;  ///< 1 where masks disagree or a shadow was followed; empty also with a style
+};
+
+/// What beside the visibility is asked for.
+struct LightShapeWanted {
+  bool confidence = true, unsure = true;
 };
 
 /// Visibility of a disc, rectangle or line light from K hard masks of known places: the share of
@@ -102,6 +107,7 @@ LightShapeResult lightShapeVisibility(std::span<const View<const uint8_t>> masks
                                       std::span<const V2f> places, View<const uint32_t> labels,
                                       Vec3View position, Vec3View normal,
                                       const std::optional<LightGeometry>& geometry,
-                                      const LightShapeParams& params);
+                                      const LightShapeParams& params,
+                                      const LightShapeWanted& wanted = {});
 
 }  // namespace kagefude

@@ -43,6 +43,22 @@ TEST(CoverageBlend, TwoStylesMeetByTheirShares) {
   EXPECT_EQ(result.g(2, 0), 1.0f);
 }
 
+TEST(CoverageBlend, RanksMayBeSparse) {
+  Row row;
+  row.firstShare(1, 0) = 0.75f;
+  row.second(1, 0) = 2;
+  row.secondShare(1, 0) = 0.25f;
+  SparsePlane id(3, 1), share(3, 1);
+  id.setRow(0, row.second.row(0));
+  share.setRow(0, row.secondShare.row(0));
+  const CoverageRank ranks[] = {{row.first, row.firstShare}, {id, share}};
+  const ColourPlanes whole = row.blend(), sparse = row.blend(ranks);
+  for (int x = 0; x < 3; ++x) {
+    EXPECT_EQ(sparse.r(x, 0), whole.r(x, 0));
+    EXPECT_EQ(sparse.g(x, 0), whole.g(x, 0));
+  }
+}
+
 TEST(CoverageBlend, BackgroundShareStaysEmpty) {
   Row row;
   row.firstShare(1, 0) = 0.4f;

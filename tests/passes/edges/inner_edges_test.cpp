@@ -16,6 +16,7 @@ constexpr int frameSide = 24;
 struct Picture {
   using Height = std::function<double(double, double)>;
   Labels ids{frameSide, frameSide, 1u};
+  std::vector<uint32_t> objects{0, 1, 1};  ///< of the styles
   Plane<uint16_t> styles{frameSide, frameSide, uint16_t{1}};
   Vec3Plane normal{frameSide, frameSide}, position{frameSide, frameSide};
   Floats r{frameSide, frameSide}, g{frameSide, frameSide, 0.0f}, b{frameSide, frameSide, 0.0f},
@@ -48,7 +49,7 @@ struct Picture {
   void blend() {
     Bytes joins;
     labelSurfaces(ids, normal, position, {}, &joins);
-    const EdgeSurfaces surfaces{ids, styles, joins, normal, position, &rays, false};
+    const EdgeSurfaces surfaces{objects, styles, joins, normal, position, &rays, false};
     blendInnerEdges(surfaces, {r.view(), g.view(), b.view(), a.view()});
   }
 
@@ -139,7 +140,11 @@ TEST(InnerEdges, ACornerOfThreeSidesIsCutByAll) {
 TEST(InnerEdges, LeavesPixelsAwayFromEdgesAndOtherObjectsAlone) {
   Picture picture = roof(0.4, 5);
   for (int y = 0; y < frameSide; ++y)
-    for (int x = 12; x < frameSide; ++x) picture.ids(x, y) = 2, picture.r(x, y) = 0.5f;
+    for (int x = 12; x < frameSide; ++x) {
+      picture.ids(x, y) = picture.styles(x, y) = 2;
+      picture.r(x, y) = 0.5f;
+    }
+  picture.objects[2] = 2;
   const Floats before = picture.r.clone();
   picture.blend();
   int changed = 0;

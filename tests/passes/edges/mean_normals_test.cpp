@@ -16,6 +16,7 @@ const V3f level(0, 0, 1), risen(0, -0.8f, 0.6f), lip(0, 0.8f, 0.6f);
 struct Bowl {
   double thick;
   Labels ids{wide, high, 1u}, own{wide, high, 1u}, first{wide, high, 1u};
+  std::vector<uint32_t> objects{0, 1};  ///< of the styles
   Plane<uint16_t> styles{wide, high, uint16_t{1}};
   Floats share{wide, high, 1.0f};
   Vec3Plane normal{wide, high}, position{wide, high}, mean{wide, high};
@@ -51,7 +52,7 @@ struct Bowl {
       sum += colourOf(surface(x + (i % 16 + 0.5) / 16, y + (i / 16 + 0.5) / 16));
     return sum / 256;
   }
-  EdgeSurfaces surfaces() const { return {ids, styles, joins, normal, position}; }
+  EdgeSurfaces surfaces() const { return {objects, styles, joins, normal, position}; }
 
   ColourPlanes blend() const {
     const CoverageRank ranks[] = {{first, share}};
@@ -142,7 +143,7 @@ TEST(MeanNormals, WhereTheRestOfTheMeanIsNotKnownTheMixtureWithoutItStands) {
   Bowl bowl(0.6);
   for (int x = 0; x < 12; ++x)
     bowl.mean.set(x, 5, V3f(std::numeric_limits<float>::quiet_NaN(), 0, 0));
-  bowl.own(20, 5) = bowl.ids(20, 5) = 0;  // a surface that is not painted
+  bowl.own(20, 5) = bowl.ids(20, 5) = bowl.styles(20, 5) = 0;  // a surface that is not painted
   bowl.first(20, 5) = 0;
   const ColourPlanes result = bowl.blend();
   const ColourPlanes without = bowl.blendWithout();

@@ -50,9 +50,10 @@ struct LampFloor {
     }
   }
 
-  LightShapeResult resolve(const LightShapeParams& params = {}) const {
+  LightShapeResult resolve(const LightShapeParams& params = {},
+                           const LightShapeWanted& wanted = {}) const {
     return lightShapeVisibility({std::vector<View<const uint8_t>>(masks.begin(), masks.end())},
-                                disc9, labels, position, normal, geometry, params);
+                                disc9, labels, position, normal, geometry, params, wanted);
   }
 };
 
@@ -97,6 +98,15 @@ TEST(LightShape, LightSizeZeroIsTheHardCentreMask) {
     for (int y = 0; y < 48; ++y)
       for (int x = 0; x < 64; ++x) EXPECT_EQ(result.visibility(x, y), floor.masks[0](x, y));
   }
+}
+
+TEST(LightShape, VisibilityIsTheSameWithNothingBesideIt) {
+  const LampFloor floor(64, 48, 8, [](float x, float) { return x > 32; });
+  const LightShapeResult told = floor.resolve(), untold = floor.resolve({}, {false, false});
+  EXPECT_TRUE(untold.confidence.empty());
+  EXPECT_TRUE(untold.unsure.empty());
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x) ASSERT_EQ(untold.visibility(x, y), told.visibility(x, y));
 }
 
 TEST(LightShape, BackgroundIsLitAndSure) {
