@@ -15,26 +15,12 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
+
+from timed import timed
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 KAGEFUDE = os.path.join(ROOT, 'build', 'release', 'kagefude')
 DATA = os.path.join(ROOT, 'tests', 'data', 'still')
-
-
-def timed(command):
-    """Wall-clock and processor seconds of a call, and what it said."""
-    with tempfile.TemporaryFile('w+') as said:
-        begin = time.monotonic()
-        process = subprocess.Popen(command, stdout=said, stderr=said)
-        _, status, usage = os.wait4(process.pid, 0)
-        wall = time.monotonic() - begin
-        process.returncode = os.waitstatus_to_exitcode(status)
-        said.seek(0)
-        words = said.read()
-    if process.returncode != 0:
-        sys.exit(f'{" ".join(command)} failed: {words}')
-    return wall, usage.ru_utime + usage.ru_stime, words
 
 
 def frame_seconds(words):
@@ -82,11 +68,11 @@ def measure(commands, rounds):
     beyond = []
     for _ in range(rounds):
         for name, command in commands.items():
-            wall, work, words = timed(command)
-            walls[name].append(wall)
-            works[name].append(work)
+            took = timed(command)
+            walls[name].append(took.wall)
+            works[name].append(took.cpu)
             if name == 'comp':
-                beyond.append(wall - frame_seconds(words))
+                beyond.append(took.wall - frame_seconds(took.said))
     median = lambda lists: {name: statistics.median(times) for name, times in lists.items()}
     return median(walls), median(works), statistics.median(beyond)
 

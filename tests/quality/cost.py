@@ -9,12 +9,16 @@ import os
 import re
 import shlex
 import subprocess
+import sys
 from dataclasses import dataclass
 
 BLENDER = shlex.split(os.environ.get("BLENDER", "blender"))
-KAGEFUDE = os.environ.get("KAGEFUDE", "build/release/kagefude")
+KAGEFUDE = os.path.abspath(os.environ.get("KAGEFUDE", "build/release/kagefude"))
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, os.path.join(ROOT, "tests", "bench"))
+
+from timed import timed  # noqa: E402  (after the path)
 
 
 @dataclass
@@ -23,44 +27,42 @@ class Cost:
     megabytes: float
 
 
-def measured(*words):
-    """Runs a command and returns what it took; prints what it said where it fails."""
-    with open("cost.log", "w", encoding="utf-8") as log:
-        process = subprocess.Popen(words, stdout=log, stderr=subprocess.STDOUT)
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode:
-        with open("cost.log", encoding="utf-8", errors="replace") as log:
-            raise SystemExit(f"{shlex.join(words)} failed:\n{log.read()[-3000:]}")
-    return Cost(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
-
-
 def least(runs, measure_once, *words):
     """The least of some runs: other work only adds, to kernel time most."""
-    costs = [measure_once(*words) for _ in range(runs)]
-    return Cost(min(cost.seconds for cost in costs), min(cost.megabytes for cost in costs))
+    took = [measure_once(*words) for _ in range(runs)]
+    return Cost(min(each.cpu for each in took), min(each.peak for each in took) / 2**20)
 
 
 def blender(*words):
-    return measured(*BLENDER, "-b", *words)
+    return timed([*BLENDER, "-b", *words])
 
 
-def export(shot, folder, *words):
+def make_scene(scene, path):
+    blender("--factory-startup", "--python-exit-code", "3", "-P", os.path.join(HERE, "scenes.py"),
+            "--", scene, path)
+
+
+def export(shot, folder, *words, frames="1"):
     script = os.path.join(ROOT, "blender_export", "export_aovs.py")
     return blender(shot, "--python-exit-code", "3", "-P", script, "--", "--output",
-                   os.path.abspath(f"{folder}/s.####.exr"), "--frames", "1", *words)
+                   os.path.abspath(f"{folder}/s.####.exr"), "--frames", frames, *words)
 
 
-def plain(shot, samples):
+def plain(shot, samples, frames="1"):
     """Cycles' own picture of the shot with so many samples, and nothing else."""
     program = ("import bpy; scene = bpy.context.scene; scene.cycles.use_adaptive_sampling = False; "
                f"scene.cycles.samples = {samples}")
-    return blender(shot, "--python-expr", program, "-o", os.path.abspath("plain.####"), "-f", "1")
+    return blender(shot, "--python-expr", program, "-o", os.path.abspath("plain.####"), "-f", frames)
 
 
-def comp(folder):
-    return measured(KAGEFUDE, "comp", os.path.join(HERE, "measure.toml"), f"{folder}/s.####.exr",
-                    "-o", f"{folder}/comp.####.exr", "--frames", "1", "--progress", "none")
+def comp(look, folder, *words, frames="1"):
+    return timed([KAGEFUDE, "comp", look, f"{folder}/s.####.exr", "-o", f"{folder}/comp.####.exr",
+                  "--frames", frames, "--progress", "none", *words])
+
+
+def blender_version():
+    said = subprocess.run([*BLENDER, "--version"], capture_output=True, text=True, check=True).stdout
+    return re.search(r"Blender (\d+\.\d+)", said)[1]
 
 
 def penumbra_rmse(image, channel, truth, samples):
@@ -87,8 +89,7 @@ def cost_at(rmse, traced):
 def measure(scene, options, version):
     os.makedirs(scene, exist_ok=True)
     shot = os.path.abspath(f"{scene}/{scene}.blend")
-    blender("--factory-startup", "--python-exit-code", "3", "-P", os.path.join(HERE, "scenes.py"),
-            "--", scene, shot)
+    make_scene(scene, shot)
     truth = f"{scene}/truth/s.0001.exr"
     if not os.path.exists(truth):
         export(shot, f"{scene}/truth", "--masks", "disc:5", "--truth", str(options.truth))
@@ -111,7 +112,7 @@ def measure(scene, options, version):
         cost = least(options.runs, export, shot, folder, "--masks", masks, "--masks-by", by)
         with open(f"{folder}/s.0001.json", encoding="utf-8") as file:
             way = json.load(file)["lights"][0]["masks"]["by"]
-        comped = comp(folder).seconds
+        comped = comp(os.path.join(HERE, "measure.toml"), folder).cpu
         rmse = penumbra_rmse(f"{folder}/comp.0001.exr", "visibility.Key", masks_truth, options.truth)
         peer, samples = cost_at(rmse, traced)
         total = cost.seconds + comped
@@ -136,10 +137,7 @@ def main():
     options = parser.parse_args()
     if len(options.samples) < 2:
         parser.error("--samples wants two or more, to tell the cost of an error between them")
-    global KAGEFUDE
-    KAGEFUDE = os.path.abspath(KAGEFUDE)
-    said = subprocess.run([*BLENDER, "--version"], capture_output=True, text=True, check=True).stdout
-    version = re.search(r"Blender (\d+\.\d+)", said)[1]
+    version = blender_version()
     folder = os.path.join(ROOT, "build", "cost", version)
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
@@ -150,4 +148,5 @@ def main():
             print(row, flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()
