@@ -4,6 +4,7 @@
 import math
 import unittest
 
+from blender_case import blender_says
 from comp_case import CompCase, flat, inside, rmse
 from test_blockers_in_blender import ALPHA, FOG, HOLE, MOVED, STAGE
 from test_seen_in_blender import LIBRARY, LINKED
@@ -156,14 +157,12 @@ class CompedObjects(CompCase):
         self.export(self.build(PAINTED + LINES), "--frames", "1", "--masks", "disc:5")
         self.comp(look=STYLES)
         comp, _ = self.colours()
-        lines = list(zip(*([round(value, 4) for value in flat(self.pixels(1)[f"beauty.Freestyle.{c}"])]
-                           for c in "RGBA")))
-        full = [k for k, line in enumerate(lines) if line[3] == 1.0]
+        full = [k for k, share in enumerate(flat(self.pixels(1)["beauty.Freestyle.A"]))
+                if share > 0.999]
         self.assertGreater(len(full), 30)
-        # Blender 5 turns their colour by a ten thousandth on its way.
-        self.assertEqual({comp[k] for k in full}, {lines[k] for k in full})
-        self.assertEqual({tuple(round(value, 2) for value in lines[k]) for k in full},
-                         {(0.0, 0.0, 1.0, 1.0)})
+        # Blender 5 turns their colour a little on its way.
+        blue = 1.0 if blender_says("bpy.app.version < (5, 0, 0)") else 0.9998
+        self.assertEqual({comp[k] for k in full}, {(0.0, 0.0, blue, 1.0)})
 
     def test_two_things_of_one_name_take_two_styles(self):
         library = self.build(LIBRARY, "cast.blend")

@@ -1,5 +1,7 @@
 #include "colour/colour.h"
 
+#include <OpenColorIO/OpenColorABI.h>
+
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
@@ -33,9 +35,10 @@ TEST_F(ColourTest, BuiltInSrgbIsTheStandardsCurve) {
   EXPECT_EQ(colour.source(), "built-in");
   Floats red = ramp(), green = ramp(), blue = ramp();
   colour.toWorking(red, green, blue, "sRGB");
+  // OpenColorIO 2.5 raises to powers a little less exactly.
+  const float bound = OCIO_VERSION_HEX < 0x02050000 ? 2e-5f : 2.5e-5f;
   for (int x = 0; x < 256; ++x) {
-    // OpenColorIO 2.1 is within 2e-5, 2.5 within 2.4e-5.
-    EXPECT_NEAR(green(x, 0), linearOf(static_cast<float>(x) / 255.0f), 3e-5f) << x;
+    EXPECT_NEAR(green(x, 0), linearOf(static_cast<float>(x) / 255.0f), bound) << x;
   }
   colour.toDisplay(red, green, blue);
   for (int x = 0; x < 256; ++x) EXPECT_NEAR(red(x, 0), static_cast<float>(x) / 255.0f, 5e-5f);

@@ -1,5 +1,7 @@
 #include "compositor/write_frame_picture.h"
 
+#include <OpenImageIO/oiioversion.h>
+
 #include "compositor/test_frame.h"
 #include "picture/picture_file.h"
 
@@ -20,7 +22,7 @@ class FramePicture : public ::testing::Test {
     result.alpha(1, 0) = 0.0f;
   }
 
-  /// The red and alpha of both pixels as the file has them; `straight` is whether by themselves.
+  /// The red and alpha of both pixels as the file has them.
   std::vector<float> written(const std::string& name, SampleDepth depth) {
     const PictureFormat& format = formatOf(name, "--output");
     const auto path = frame.folder.path() / name;
@@ -28,7 +30,6 @@ class FramePicture : public ::testing::Test {
                       fingerprint);
     EXPECT_EQ(pictureFingerprint(path, format), fingerprint) << name;
     PictureFile file(path);
-    straight = file.header().unassociated;
     Floats red(2, 1), alpha(2, 1, -1.0f);
     std::vector<PicturePlane> planes = {{0, red, {}, {}}};
     if (file.header().channels.size() > 3) planes.push_back({3, alpha, {}, {}});
@@ -48,7 +49,6 @@ class FramePicture : public ::testing::Test {
   Colour colour;
   FramePlan plan;
   FrameResult result;
-  bool straight = false;
 };
 
 TEST_F(FramePicture, ColoursAreByThemselvesOrMultipliedAsTheFormatHasThem) {
@@ -81,12 +81,12 @@ TEST_F(FramePicture, FloatsAreSceneLinearAsTheyAre) {
 
 TEST_F(FramePicture, WebpKeepsColoursAndMetadata) {
   look = readLook({}, {"colour.view=Raw", "output.quality=100"});
-  const std::vector<float> got = written("a.webp", SampleDepth::uint8);
   // OpenImageIO's reader before 3.1 multiplies by alpha in 8 bits, which leaves no light without a
   // surface.
-  const std::vector<float> wanted = straight ? std::vector{0.5f, 0.5f, 0.25f, 0.0f}
-                                             : std::vector{0.25f, 0.5f, 0.0f, 0.0f};
-  for (size_t i = 0; i < 4; ++i) EXPECT_NEAR(got[i], wanted[i], 1.0f / 255.0f) << i;
+  if (OIIO_VERSION < 30100)
+    expect("a.webp", SampleDepth::uint8, {0.25f, 0.5f, 0, 0});
+  else
+    expect("a.webp", SampleDepth::uint8, {0.5f, 0.5f, 0.25f, 0});
 }
 
 TEST_F(FramePicture, ACutPictureIsNotUpToDate) {

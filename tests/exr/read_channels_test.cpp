@@ -68,8 +68,11 @@ TEST(ReadChannels, OneChannelInSeveralFormsIsReadOnce) {
   }
 }
 
-/// Zip is decoded by the fast path, PIZ by OpenEXR.
-TEST(ReadChannels, MasksAreTheSameWhateverReadsThemAndWhoeverElseWantsThem) {
+/// Calls `check(reader, name, values, others)` for halves, floats and whole numbers full of noise, by
+/// themselves and where others want the channel as well. Zip is decoded by the fast path, PIZ by
+/// OpenEXR.
+template <class Check>
+void onNoise(const Check& check) {
   const TemporaryFolder folder;
   const std::string path = (folder / "a.exr").string();
   for (const Imf::Compression codec : {Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
@@ -79,62 +82,59 @@ TEST(ReadChannels, MasksAreTheSameWhateverReadsThemAndWhoeverElseWantsThem) {
       const Floats values = std::move(readFloats(file, Names{name}).front());
       for (const bool others : {false, true}) {
         ChannelReader reader(file);
-        Bytes first, second;
-        Floats floats;
-        RawPlane raw;
-        size_t unknown = 7, again = 7, expected = 0;
-        reader.mask(name, first, unknown);
-        if (others) {
-          reader.floats(name, floats);
-          reader.raw(name, raw);
-        }
-        reader.mask(name, second, again);
-        reader.read();
-        for (int i = 0; i < 37 * 19; ++i) {
-          const float value = values.row(0)[i];
-          const bool known = std::isfinite(value);
-          ASSERT_EQ(first.row(0)[i], !known || value >= 0.5f ? 1 : 0) << name << " " << i;
-          ASSERT_EQ(second.row(0)[i], first.row(0)[i]);
-          expected += !known;
-        }
-        EXPECT_EQ(unknown, expected) << name;
-        EXPECT_EQ(again, expected) << name;
-        if (others) EXPECT_EQ(std::memcmp(floats.row(0), values.row(0), 4 * 37 * 19), 0) << name;
+        check(reader, name, values, others);
       }
     }
   }
 }
 
-/// Zip is decoded by the fast path, PIZ by OpenEXR.
-TEST(ReadChannels, SparsePlanesAreTheSameWhateverReadsThemAndWhoeverElseWantsThem) {
-  const TemporaryFolder folder;
-  const std::string path = (folder / "a.exr").string();
-  for (const Imf::Compression codec : {Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
-    writeWithOpenExr(path, {makeTestPart("", {-5, 2, 37, 19}, codec, TestPixels::noise, 3)});
-    const ImageFile file = openImage(path);
-    for (const std::string name : {"R", "Layer.Depth.Z", "Layer.Index.X"}) {
-      const Floats values = std::move(readFloats(file, Names{name}).front());
-      for (const bool others : {false, true}) {
-        ChannelReader reader(file);
-        SparsePlane first, second;
-        Bytes mask;
-        size_t unknown = 0;
-        RawPlane raw;
-        reader.sparseFloats(name, first);
-        if (others) {
-          reader.mask(name, mask, unknown);
-          reader.raw(name, raw);
-        }
-        reader.sparseFloats(name, second);
-        reader.read();
-        for (int y = 0; y < 19; ++y)
-          for (int x = 0; x < 37; ++x) {
-            ASSERT_EQ(first(x, y), std::bit_cast<uint32_t>(values(x, y))) << name << " " << x;
-            ASSERT_EQ(second(x, y), first(x, y)) << name << " " << x;
-          }
-      }
+TEST(ReadChannels, MasksAreTheSameWhateverReadsThemAndWhoeverElseWantsThem) {
+  onNoise([](ChannelReader& reader, const std::string& name, const Floats& values, bool others) {
+    Bytes first, second;
+    Floats floats;
+    RawPlane raw;
+    size_t unknown = 7, again = 7, expected = 0;
+    reader.mask(name, first, unknown);
+    if (others) {
+      reader.floats(name, floats);
+      reader.raw(name, raw);
     }
-  }
+    reader.mask(name, second, again);
+    reader.read();
+    for (int i = 0; i < 37 * 19; ++i) {
+      const float value = values.row(0)[i];
+      const bool known = std::isfinite(value);
+      ASSERT_EQ(first.row(0)[i], !known || value >= 0.5f ? 1 : 0) << name << " " << i;
+      ASSERT_EQ(second.row(0)[i], first.row(0)[i]);
+      expected += !known;
+    }
+    EXPECT_EQ(unknown, expected) << name;
+    EXPECT_EQ(again, expected) << name;
+    if (others) {
+      EXPECT_EQ(std::memcmp(floats.row(0), values.row(0), 4 * 37 * 19), 0) << name;
+    }
+  });
+}
+
+TEST(ReadChannels, SparsePlanesAreTheSameWhateverReadsThemAndWhoeverElseWantsThem) {
+  onNoise([](ChannelReader& reader, const std::string& name, const Floats& values, bool others) {
+    SparsePlane first, second;
+    Bytes mask;
+    size_t unknown = 0;
+    RawPlane raw;
+    reader.sparseFloats(name, first);
+    if (others) {
+      reader.mask(name, mask, unknown);
+      reader.raw(name, raw);
+    }
+    reader.sparseFloats(name, second);
+    reader.read();
+    for (int y = 0; y < 19; ++y)
+      for (int x = 0; x < 37; ++x) {
+        ASSERT_EQ(first(x, y), std::bit_cast<uint32_t>(values(x, y))) << name << " " << x;
+        ASSERT_EQ(second(x, y), first(x, y)) << name << " " << x;
+      }
+  });
 }
 
 TEST(ReadChannels, SparseIdsKeepTheirBitsAndHalvesAreRefused) {

@@ -1,5 +1,7 @@
 #include "picture/picture_file.h"
 
+#include <OpenImageIO/oiioversion.h>
+
 #include <bit>
 #include <random>
 
@@ -261,8 +263,8 @@ TEST(PictureFile, AClaimThatTheFileCannotHoldIsRefusedBeforeItIsAllocated) {
   tga[16] = 24;
   writeText(folder / "a.tga", tga + std::string(1000, 'x'));
   // OpenImageIO 3.1 counts by itself.
-  const std::string said = messageOf<InputError>([&] { readStrip(folder / "a.tga"); });
-  if (said.find("10800000000 bytes") == std::string::npos) expectContains(said, "60000 x 60000");
+  expectContains(messageOf<InputError>([&] { readStrip(folder / "a.tga"); }),
+                 OIIO_VERSION < 30100 ? "60000 x 60000" : "10800000000 bytes");
 }
 
 }  // namespace
