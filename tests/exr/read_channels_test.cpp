@@ -68,8 +68,8 @@ TEST(ReadChannels, OneChannelInSeveralFormsIsReadOnce) {
   }
 }
 
-/// Calls `check(reader, name, values, others)` for halves, floats and whole numbers full of noise, by
-/// themselves and where others want the channel as well. Zip is decoded by the fast path, PIZ by
+/// Calls `check(reader, name, values, others)` for halves, floats and whole numbers full of noise,
+/// by themselves and where others want the channel as well. Zip is decoded by the fast path, PIZ by
 /// OpenEXR.
 template <class Check>
 void onNoise(const Check& check) {
